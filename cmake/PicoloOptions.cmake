@@ -1,0 +1,65 @@
+# SPDX-FileCopyrightText: picolo contributors
+# SPDX-License-Identifier: Apache-2.0
+# Two interface targets carry every compiler switch of the project:
+#   picolo_numbers   what makes the bits equal on every platform; public, travels with libpicolo.a
+#   picolo_warnings  what keeps our own code clean; private
+
+set(PICOLO_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
+if(PICOLO_SANITIZE)
+  add_compile_options(-fsanitize=${PICOLO_SANITIZE} -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${PICOLO_SANITIZE})
+endif()
+
+add_library(picolo_numbers INTERFACE)
+target_compile_features(picolo_numbers INTERFACE cxx_std_20)
+target_compile_options(picolo_numbers INTERFACE -ffp-contract=off -fno-math-errno)
+target_compile_definitions(picolo_numbers INTERFACE EIGEN_DONT_VECTORIZE EIGEN_NO_IO EIGEN_NO_MALLOC)
+
+add_library(picolo_warnings INTERFACE)
+target_compile_options(picolo_warnings INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow -Wdouble-promotion
+  -Wold-style-cast -Wnon-virtual-dtor -Wundef -Wcast-align -Wswitch-enum>
+  $<$<BOOL:${PICOLO_WERROR}>:-Werror>)
+
+# What runs on the target: no exceptions, no RTTI, no guards around statics.
+add_library(picolo_firmware INTERFACE)
+target_compile_options(picolo_firmware INTERFACE
+  $<$<COMPILE_LANGUAGE:CXX>:-fno-exceptions -fno-rtti -fno-threadsafe-statics>
+  -ffunction-sections -fdata-sections)
+
+set(CMAKE_CXX_EXTENSIONS OFF)
+
+# picolo_module(NAME [DEPENDS other...]): one folder of firmware_lib. picolo_NAME_api carries the folder's headers and those it
+# may see, so that an include which points upward in the design does not even resolve; picolo_NAME compiles all its *.cpp.
+function(picolo_module name)
+  cmake_parse_arguments(ARG "" "" "DEPENDS" ${ARGN})
+  list(TRANSFORM ARG_DEPENDS PREPEND picolo_)
+  list(TRANSFORM ARG_DEPENDS APPEND _api)
+  add_library(picolo_${name}_api INTERFACE)
+  target_include_directories(picolo_${name}_api INTERFACE
+    $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${name}/include>)
+  target_link_libraries(picolo_${name}_api INTERFACE picolo_numbers ${ARG_DEPENDS})
+
+  target_include_directories(picolo PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${name}/include>)
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/${name}/*.cpp)
+  if(NOT sources)
+    return()
+  endif()
+  add_library(picolo_${name} OBJECT ${sources})
+  target_include_directories(picolo_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${name})
+  target_link_libraries(picolo_${name} PRIVATE picolo_${name}_api picolo_warnings picolo_firmware)
+  if(NOT name STREQUAL "core")
+    target_link_libraries(picolo_${name} PRIVATE Eigen3::Eigen)
+  endif()
+  target_sources(picolo PRIVATE $<TARGET_OBJECTS:picolo_${name}>)
+endfunction()
+
+# picolo_package(NAME SOURCES files... DEPENDS targets...): a static library next to libpicolo.a (drivers, controller, a port).
+# Its public headers live in include/ beside its CMakeLists.txt.
+function(picolo_package name)
+  cmake_parse_arguments(ARG "" "" "SOURCES;DEPENDS" ${ARGN})
+  add_library(picolo_${name} STATIC ${ARG_SOURCES})
+  add_library(picolo::${name} ALIAS picolo_${name})
+  target_include_directories(picolo_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
+  target_link_libraries(picolo_${name} PUBLIC picolo_numbers ${ARG_DEPENDS} PRIVATE picolo_warnings)
+endfunction()

@@ -1,0 +1,20 @@
+# SPDX-FileCopyrightText: picolo contributors
+# SPDX-License-Identifier: Apache-2.0
+# Every package the project uses, all from the distribution; `./run` installs them.
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+if(PICOLO_BUILD_HOST)
+  find_package(CLI11 REQUIRED)
+  find_package(fmt REQUIRED)
+  find_package(PNG REQUIRED)
+  find_package(ZLIB REQUIRED)
+  find_package(PkgConfig REQUIRED)
+  pkg_check_modules(tomlplusplus REQUIRED IMPORTED_TARGET tomlplusplus)
+  find_package(nlohmann_json REQUIRED)
+endif()
+if(PICOLO_BUILD_TESTS)
+  find_package(GTest REQUIRED)
+  find_library(RAPIDCHECK_LIBRARY rapidcheck REQUIRED)
+endif()
+if(PICOLO_BUILD_BENCHMARKS)
+  find_package(benchmark REQUIRED)
+endif()

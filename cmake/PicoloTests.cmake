@@ -1,0 +1,23 @@
+# SPDX-FileCopyrightText: picolo contributors
+# SPDX-License-Identifier: Apache-2.0
+# picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [TIMEOUT s]): all *.cpp of the calling folder form one
+# Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels.
+# PICOLO_TEST_DATA is where recordings are looked for; tests that need one call require_data() of tests/support.
+include(GoogleTest)
+
+set(PICOLO_TEST_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Folder with the recorded data sets")
+
+function(picolo_test name)
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;DEFINITIONS" ${ARGN})
+  if(NOT ARG_TIMEOUT)
+    set(ARG_TIMEOUT 120)
+  endif()
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  add_executable(test_${name} ${sources})
+  target_link_libraries(test_${name} PRIVATE picolo_test_support ${ARG_DEPENDS} picolo::picolo
+    GTest::gmock GTest::gtest_main picolo_warnings)
+  target_compile_definitions(test_${name} PRIVATE
+    PICOLO_TEST_DATA="${PICOLO_TEST_DATA}" PICOLO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
+  gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+endfunction()

@@ -1,0 +1,64 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/sensing/sweep.hpp"
+
+#include "picolo/core/number_model.hpp"
+
+namespace picolo::inline v0 {
+
+SweepAssemblerCore::SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,
+                                       std::span<RangeReturn> second)
+    : config_(config), buffers_{first, second} {}
+
+void SweepAssemblerCore::begin(const RangeReading& reading) {
+  in_sweep_ = true;
+  size_ = 0;
+  sweeps_[filling_].stamp = reading.stamp;
+}
+
+void SweepAssemblerCore::complete() {
+  if (size_ < static_cast<std::size_t>(config_.min_readings)) {
+    ++counters_.partial;
+    return;
+  }
+  if (ready_) { ++counters_.replaced; }
+  Sweep& sweep = sweeps_[filling_];
+  sweep.last_stamp = last_stamp_;
+  sweep.sequence = counters_.completed;
+  sweep.returns = buffers_[filling_].first(size_);
+  ++counters_.completed;
+  ready_ = true;
+  filling_ = 1 - filling_;
+}
+
+void SweepAssemblerCore::add(const RangeReading& reading) {
+  if (in_sweep_ && reading.stamp < last_stamp_) {
+    ++counters_.out_of_order;
+    return;
+  }
+  if (in_sweep_ && reading.stamp - last_stamp_ > config_.max_gap) {
+    ++counters_.partial;
+    in_sweep_ = false;
+  }
+  if (reading.starts_sweep) {
+    if (in_sweep_) { complete(); }
+    begin(reading);
+  }
+  if (!in_sweep_) { return; }
+  last_stamp_ = reading.stamp;
+  if (size_ == buffers_[filling_].size()) {
+    ++counters_.overflowed;
+    return;
+  }
+  buffers_[filling_][size_] = {reading.range_m, reading.bearing_rad,
+                               to_seconds(reading.stamp - sweeps_[filling_].stamp)};
+  ++size_;
+}
+
+Sweep SweepAssemblerCore::take() {
+  ready_ = false;
+  return sweeps_[1 - filling_];
+}
+
+}  // namespace picolo::inline v0

@@ -1,0 +1,40 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Memory that survives power loss, with the manners of NOR flash.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "picolo/core/status.hpp"
+
+namespace picolo::inline v0 {
+
+struct ByteStoreGeometry {
+  std::size_t size = 0;         ///< bytes in all; a multiple of `sector`
+  std::size_t sector = 0;       ///< what `erase` erases
+  std::size_t granule = 1;      ///< `program` takes multiples of this, at multiples of this: 1, 4 or 8
+};
+
+/// NOR semantics: erased bytes read 0xFF; programming only clears bits; a granule is programmed once after an erase.
+/// Never blocks longer than the port states for one granule or one sector. All calls from one context.
+class ByteStore {
+ public:
+  [[nodiscard]] virtual ByteStoreGeometry geometry() const = 0;
+  /// `out_of_range`: beyond the size. `io_error`: the medium failed.
+  virtual Status read(std::size_t address, std::span<std::uint8_t> bytes) = 0;
+  /// `invalid_argument`: not aligned to granules. `out_of_range`, `io_error` as above.
+  virtual Status program(std::size_t address, std::span<const std::uint8_t> bytes) = 0;
+  /// Erases the sector that starts at `address`. `invalid_argument`: not the start of a sector.
+  virtual Status erase(std::size_t address) = 0;
+
+ protected:
+  ByteStore() = default;
+  ByteStore(const ByteStore&) = default;
+  ByteStore& operator=(const ByteStore&) = default;
+  ~ByteStore() = default;
+};
+
+}  // namespace picolo::inline v0

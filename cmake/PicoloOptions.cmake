@@ -38,6 +38,11 @@ function(picolo_module name)
   add_library(picolo_${name}_api INTERFACE)
   target_include_directories(picolo_${name}_api INTERFACE
     $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${name}/include>)
+  if(IS_DIRECTORY ${CMAKE_CURRENT_SOURCE_DIR}/${name}/kernel)
+    # Inline kernels shared between folders of the library; never seen by a customer's compiler.
+    target_include_directories(picolo_${name}_api INTERFACE
+      $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${name}/kernel>)
+  endif()
   target_link_libraries(picolo_${name}_api INTERFACE picolo_numbers ${ARG_DEPENDS})
 
   target_include_directories(picolo PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/${name}/include>)

@@ -123,6 +123,7 @@ Matrix3<T> compose_jacobian_right(const Pose2<T>& a_T_b) {
 
 template <typename T>
 Pose2<T> interpolate(const Pose2<T>& from, const Pose2<T>& to, T share) {
+  if (share == T{1}) { return to; }  // exact, which from + (to - from) is not
   return {from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m),
           wrap_angle(from.theta_rad + share * wrap_angle(to.theta_rad - from.theta_rad))};
 }

@@ -75,7 +75,8 @@ class UndistorterCore {
 
  private:
   Status cover(const PoseBufferCore& poses);
-  Status load_segment(const PoseBufferCore& poses, Timestamp at);
+  Status advance_segment(const PoseBufferCore& poses);
+  void place(const RangeReturn& beam);
 
   std::span<float> x_m_;
   std::span<float> y_m_;
@@ -83,10 +84,15 @@ class UndistorterCore {
   Sweep sweep_{};
   UndistortedSweep result_{};
   Pose2d reference_T_odom_{};
+  // The current segment: B_T_lidar at both ends, and the ends in float seconds since the sweep's start.
   Timestamp segment_start_{};
   Timestamp segment_end_{};
-  Pose2f segment_from_{};  // b_T_base at both ends of the segment
+  Pose2f segment_from_{};
   Pose2f segment_to_{};
+  float segment_turn_rad_ = 0.0F;
+  float segment_start_s_ = 0.0F;
+  float segment_end_s_ = 0.0F;
+  float inverse_segment_per_s_ = 0.0F;
   std::size_t next_ = 0;
   std::size_t points_ = 0;
   bool busy_ = false;

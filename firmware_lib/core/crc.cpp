@@ -5,7 +5,8 @@
 
 namespace picolo::inline v0 {
 
-std::uint8_t crc8(std::span<const std::uint8_t> bytes, std::uint8_t polynomial, std::uint8_t start) {
+std::uint8_t crc8(std::span<const std::uint8_t> bytes, std::uint8_t polynomial,
+                  std::uint8_t start) {
   std::uint32_t crc = start;
   for (const std::uint8_t byte : bytes) {
     crc ^= byte;

@@ -32,7 +32,9 @@ void Hash::add(std::uint32_t word) {
   add_bytes(bytes);
 }
 
-void Hash::add(std::int64_t word) { add(std::bit_cast<std::uint64_t>(word)); }
+void Hash::add(std::int64_t word) {
+  add(std::bit_cast<std::uint64_t>(word));
+}
 
 void Hash::add(float value) {
   poisoned_ = poisoned_ || value != value;

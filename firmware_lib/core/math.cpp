@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Range reduction to a short interval, then a Taylor polynomial whose first left-out term is below half an ulp.
+// Range reduction to a short interval, then a Taylor polynomial whose first left-out term is below
+// half an ulp.
 
 #include "picolo/core/math.hpp"
 
@@ -24,7 +25,8 @@ T polynomial(T x, const T (&coefficients)[N]) {
 
 // sin(r) / r and cos(r) in powers of r^2, |r| <= pi/4.
 constexpr float kSineF32[] = {1.0F, -1.0F / 6.0F, 1.0F / 120.0F, -1.0F / 5040.0F, 1.0F / 362880.0F};
-constexpr float kCosineF32[] = {1.0F, -0.5F, 1.0F / 24.0F, -1.0F / 720.0F, 1.0F / 40320.0F, -1.0F / 3628800.0F};
+constexpr float kCosineF32[] = {1.0F,           -0.5F,           1.0F / 24.0F,
+                                -1.0F / 720.0F, 1.0F / 40320.0F, -1.0F / 3628800.0F};
 constexpr double kSineF64[] = {1.0,
                                -1.0 / 6.0,
                                1.0 / 120.0,
@@ -53,8 +55,8 @@ SinCos<T> turn_by_quadrant(T sine, T cosine, std::uint32_t quadrant) {
 }
 
 // atan(k / 4) and atan(k / 8) for the nearest knot.
-constexpr float kArcTangentKnotsF32[] = {0.0F, 0.24497866312686414F, 0.46364760900080615F, 0.6435011087932844F,
-                                         0.7853981633974483F};
+constexpr float kArcTangentKnotsF32[] = {0.0F, 0.24497866312686414F, 0.46364760900080615F,
+                                         0.6435011087932844F, 0.7853981633974483F};
 constexpr double kArcTangentKnotsF64[] = {0.0,
                                           0.12435499454676144,
                                           0.24497866312686414,
@@ -66,13 +68,15 @@ constexpr double kArcTangentKnotsF64[] = {0.0,
                                           0.7853981633974483};
 // atan(z) / z in powers of z^2.
 constexpr float kArcTangentF32[] = {1.0F, -1.0F / 3.0F, 1.0F / 5.0F, -1.0F / 7.0F};
-constexpr double kArcTangentF64[] = {1.0,       -1.0 / 3.0,  1.0 / 5.0,   -1.0 / 7.0,
+constexpr double kArcTangentF64[] = {1.0,       -1.0 / 3.0,  1.0 / 5.0, -1.0 / 7.0,
                                      1.0 / 9.0, -1.0 / 11.0, 1.0 / 13.0};
 
-/// The first-octant angle from the nearest knot k / Steps: atan(t) = atan(c) + atan((t - c) / (1 + t c)), t = low / high.
+/// The first-octant angle from the nearest knot k / Steps: atan(t) = atan(c) + atan((t - c) / (1 +
+/// t c)), t = low / high.
 template <int Steps, typename T, std::size_t Knots, std::size_t Terms>
 T arc_tangent_ratio(T low, T high, const T (&knots)[Knots], const T (&terms)[Terms]) {
-  const std::int32_t knot = round_to_i32(static_cast<float>(low / high) * static_cast<float>(Steps), 0, Steps);
+  const std::int32_t knot =
+      round_to_i32(static_cast<float>(low / high) * static_cast<float>(Steps), 0, Steps);
   const T c = static_cast<T>(knot) / static_cast<T>(Steps);
   const T z = (low - c * high) / (high + c * low);
   return knots[knot] + z * polynomial(z * z, terms);
@@ -86,15 +90,17 @@ T arc_tangent2_of(T y, T x, const T (&knots)[Knots], const T (&terms)[Terms], T 
   const T high = ax > ay ? ax : ay;
   const T low = ax > ay ? ay : ax;
   if (high == T{0}) { return T{0}; }
-  T angle = low == high ? pi / T{4} : (is_finite(high) ? arc_tangent_ratio<Steps>(low, high, knots, terms) : T{0});
+  T angle = low == high
+                ? pi / T{4}
+                : (is_finite(high) ? arc_tangent_ratio<Steps>(low, high, knots, terms) : T{0});
   if (ay > ax) { angle = pi / T{2} - angle; }
   if (x < T{0}) { angle = pi - angle; }
   return y < T{0} ? -angle : angle;
 }
 
 // exp(r), |r| <= ln(2) / 2.
-constexpr float kExponentialF32[] = {1.0F,          1.0F,          0.5F,         1.0F / 6.0F,
-                                     1.0F / 24.0F,  1.0F / 120.0F, 1.0F / 720.0F, 1.0F / 5040.0F};
+constexpr float kExponentialF32[] = {1.0F,         1.0F,          0.5F,          1.0F / 6.0F,
+                                     1.0F / 24.0F, 1.0F / 120.0F, 1.0F / 720.0F, 1.0F / 5040.0F};
 constexpr double kExponentialF64[] = {1.0,
                                       1.0,
                                       0.5,
@@ -119,8 +125,9 @@ double power_of_two_f64(std::int32_t exponent) {
 
 // log(m) = 2 s (1 + s^2 / 3 + s^4 / 5 + ...), s = (m - 1) / (m + 1), m in [sqrt(1/2), sqrt(2)].
 constexpr float kLogarithmF32[] = {1.0F, 1.0F / 3.0F, 1.0F / 5.0F, 1.0F / 7.0F, 1.0F / 9.0F};
-constexpr double kLogarithmF64[] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,  1.0 / 9.0, 1.0 / 11.0,
-                                    1.0 / 13.0, 1.0 / 15.0, 1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0};
+constexpr double kLogarithmF64[] = {1.0,        1.0 / 3.0,  1.0 / 5.0,  1.0 / 7.0,
+                                    1.0 / 9.0,  1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0,
+                                    1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0};
 constexpr float kNan32 = std::numeric_limits<float>::quiet_NaN();
 constexpr double kNan64 = std::numeric_limits<double>::quiet_NaN();
 
@@ -130,7 +137,8 @@ SinCos<float> sin_cos(float angle_rad) {
   constexpr std::int32_t kLimit = 1 << 20;
   const std::int32_t quadrant = round_to_i32(angle_rad * 0.636619772367581343F, -kLimit, kLimit);
   const auto n = static_cast<float>(quadrant);
-  // pi/2 in three parts; the first two have trailing zero bits, so that n times them is exact (Cody and Waite).
+  // pi/2 in three parts; the first two have trailing zero bits, so that n times them is exact (Cody
+  // and Waite).
   const float r = ((angle_rad - n * 1.5703125F) - n * 4.83751296997e-4F) - n * 7.54978995489e-8F;
   const float r2 = r * r;
   return turn_by_quadrant(r * polynomial(r2, kSineF32), polynomial(r2, kCosineF32),
@@ -141,7 +149,8 @@ SinCos<double> sin_cos(double angle_rad) {
   constexpr std::int64_t kLimit = std::int64_t{1} << 30;
   const std::int64_t quadrant = round_to_i64(angle_rad * 0.636619772367581343, -kLimit, kLimit);
   const auto n = static_cast<double>(quadrant);
-  const double r = ((angle_rad - n * 0x1.921FB544p0) - n * 0x1.0B4611A6p-34) - n * 0x1.3198A2E037073p-69;
+  const double r =
+      ((angle_rad - n * 0x1.921FB544p0) - n * 0x1.0B4611A6p-34) - n * 0x1.3198A2E037073p-69;
   const double r2 = r * r;
   return turn_by_quadrant(r * polynomial(r2, kSineF64), polynomial(r2, kCosineF64),
                           static_cast<std::uint32_t>(quadrant & 3));
@@ -191,7 +200,8 @@ float logarithm(float x) {
   const float m = std::bit_cast<float>((bits & 0x007FFFFFU) + 0x3F3504F3U);
   const float s = (m - 1.0F) / (m + 1.0F);
   const auto count = static_cast<float>(exponent);
-  return count * 0.693359375F + (2.0F * s * polynomial(s * s, kLogarithmF32) - count * 2.12194440e-4F);
+  return count * 0.693359375F +
+         (2.0F * s * polynomial(s * s, kLogarithmF32) - count * 2.12194440e-4F);
 }
 
 double logarithm(double x) {
@@ -207,18 +217,29 @@ double logarithm(double x) {
   const double m = std::bit_cast<double>((bits & 0x000FFFFFFFFFFFFFULL) + 0x3FE6A09E667F3BCDULL);
   const double s = (m - 1.0) / (m + 1.0);
   const auto count = static_cast<double>(exponent);
-  return count * 0x1.62E42FEEp-1 + (2.0 * s * polynomial(s * s, kLogarithmF64) + count * 0x1.A39EF35793C76p-33);
+  return count * 0x1.62E42FEEp-1 +
+         (2.0 * s * polynomial(s * s, kLogarithmF64) + count * 0x1.A39EF35793C76p-33);
 }
 
-float square_root(float x) { return __builtin_sqrtf(x); }
+float square_root(float x) {
+  return __builtin_sqrtf(x);
+}
 
-double square_root(double x) { return __builtin_sqrt(x); }
+double square_root(double x) {
+  return __builtin_sqrt(x);
+}
 
-float hypotenuse(float x, float y) { return square_root(x * x + y * y); }
+float hypotenuse(float x, float y) {
+  return square_root(x * x + y * y);
+}
 
-double hypotenuse(double x, double y) { return square_root(x * x + y * y); }
+double hypotenuse(double x, double y) {
+  return square_root(x * x + y * y);
+}
 
-bool is_finite(float x) { return (std::bit_cast<std::uint32_t>(x) & 0x7F800000U) != 0x7F800000U; }
+bool is_finite(float x) {
+  return (std::bit_cast<std::uint32_t>(x) & 0x7F800000U) != 0x7F800000U;
+}
 
 bool is_finite(double x) {
   return (std::bit_cast<std::uint64_t>(x) & 0x7FF0000000000000ULL) != 0x7FF0000000000000ULL;

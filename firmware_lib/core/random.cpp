@@ -8,7 +8,8 @@
 
 namespace picolo::inline v0 {
 
-Random::Random(std::uint64_t seed, std::uint64_t stream) : state_(0), increment_((stream << 1) | 1U) {
+Random::Random(std::uint64_t seed, std::uint64_t stream)
+    : state_(0), increment_((stream << 1) | 1U) {
   static_cast<void>(next_u32());
   state_ += seed;
   static_cast<void>(next_u32());
@@ -26,7 +27,9 @@ std::uint32_t Random::below(std::uint32_t bound) {
   return static_cast<std::uint32_t>((static_cast<std::uint64_t>(next_u32()) * bound) >> 32);
 }
 
-float Random::uniform_f32() { return static_cast<float>(next_u32() >> 8) * 0x1p-24F; }
+float Random::uniform_f32() {
+  return static_cast<float>(next_u32() >> 8) * 0x1p-24F;
+}
 
 double Random::uniform_f64() {
   const std::uint64_t high = next_u32() >> 5;
@@ -34,7 +37,9 @@ double Random::uniform_f64() {
   return static_cast<double>((high << 26) | low) * 0x1p-53;
 }
 
-double Random::uniform(double low, double high) { return low + (high - low) * uniform_f64(); }
+double Random::uniform(double low, double high) {
+  return low + (high - low) * uniform_f64();
+}
 
 double Random::gaussian() {
   constexpr int kRounds = 32;  // each round fails with 0.21: all of them with 1e-22

@@ -8,9 +8,13 @@
 
 namespace picolo::inline v0 {
 
-float to_seconds(Duration duration) { return static_cast<float>(duration.count()) * 1e-6F; }
+float to_seconds(Duration duration) {
+  return static_cast<float>(duration.count()) * 1e-6F;
+}
 
-double to_seconds_f64(Duration duration) { return static_cast<double>(duration.count()) / 1e6; }
+double to_seconds_f64(Duration duration) {
+  return static_cast<double>(duration.count()) / 1e6;
+}
 
 Duration from_seconds(double seconds_s) {
   constexpr std::int64_t kLimit = std::int64_t{1} << 62;

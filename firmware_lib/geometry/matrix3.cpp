@@ -12,7 +12,8 @@ Matrix3<T> product(const Matrix3<T>& a, const Matrix3<T>& b) {
   Matrix3<T> result;
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 3; ++column) {
-      result(row, column) = (a(row, 0) * b(0, column) + a(row, 1) * b(1, column)) + a(row, 2) * b(2, column);
+      result(row, column) =
+          (a(row, 0) * b(0, column) + a(row, 1) * b(1, column)) + a(row, 2) * b(2, column);
     }
   }
   return result;

@@ -15,13 +15,15 @@ T magnitude(T x) {
   return x < T{0} ? -x : x;
 }
 
-/// The four coefficients of V and Jr: a = sin t / t, b = (1 - cos t) / t, c = (t - sin t) / t^2, d = (1 - cos t) / t^2.
+/// The four coefficients of V and Jr: a = sin t / t, b = (1 - cos t) / t, c = (t - sin t) / t^2, d
+/// = (1 - cos t) / t^2.
 template <typename T>
 struct Coefficients {
   T a, b, c, d;
 };
 
-/// Below the threshold the closed forms cancel; the series' first left-out terms are under an ulp there.
+/// Below the threshold the closed forms cancel; the series' first left-out terms are under an ulp
+/// there.
 template <typename T>
 Coefficients<T> coefficients_of(T t) {
   constexpr T kSeriesBelow = sizeof(T) == 4 ? T(0.25) : T(0.03);
@@ -46,14 +48,18 @@ Pose2<T> compose(const Pose2<T>& a_T_b, const Pose2<T>& b_T_c) {
           wrap_angle(a_T_b.theta_rad + b_T_c.theta_rad)};
 }
 
-Pose2f operator*(const Pose2f& a_T_b, const Pose2f& b_T_c) { return compose(a_T_b, b_T_c); }
-Pose2d operator*(const Pose2d& a_T_b, const Pose2d& b_T_c) { return compose(a_T_b, b_T_c); }
+Pose2f operator*(const Pose2f& a_T_b, const Pose2f& b_T_c) {
+  return compose(a_T_b, b_T_c);
+}
+Pose2d operator*(const Pose2d& a_T_b, const Pose2d& b_T_c) {
+  return compose(a_T_b, b_T_c);
+}
 
 template <typename T>
 Pose2<T> inverse(const Pose2<T>& a_T_b) {
   const SinCos<T> sc = sin_cos(a_T_b.theta_rad);
-  return {-(sc.cosine * a_T_b.x_m + sc.sine * a_T_b.y_m), sc.sine * a_T_b.x_m - sc.cosine * a_T_b.y_m,
-          -a_T_b.theta_rad};
+  return {-(sc.cosine * a_T_b.x_m + sc.sine * a_T_b.y_m),
+          sc.sine * a_T_b.x_m - sc.cosine * a_T_b.y_m, -a_T_b.theta_rad};
 }
 
 template <typename T>
@@ -83,8 +89,8 @@ template <typename T>
 Tangent2<T> log_se2(const Pose2<T>& pose) {
   const Coefficients<T> k = coefficients_of(pose.theta_rad);
   const T determinant = k.a * k.a + k.b * k.b;
-  return {(k.a * pose.x_m + k.b * pose.y_m) / determinant, (k.a * pose.y_m - k.b * pose.x_m) / determinant,
-          pose.theta_rad};
+  return {(k.a * pose.x_m + k.b * pose.y_m) / determinant,
+          (k.a * pose.y_m - k.b * pose.x_m) / determinant, pose.theta_rad};
 }
 
 template <typename T>
@@ -129,7 +135,8 @@ Pose2<T> interpolate(const Pose2<T>& from, const Pose2<T>& to, T share) {
 }
 
 Pose2d to_f64(const Pose2f& pose) {
-  return {static_cast<double>(pose.x_m), static_cast<double>(pose.y_m), static_cast<double>(pose.theta_rad)};
+  return {static_cast<double>(pose.x_m), static_cast<double>(pose.y_m),
+          static_cast<double>(pose.theta_rad)};
 }
 
 Pose2f to_f32(const Pose2d& pose) {
@@ -137,18 +144,18 @@ Pose2f to_f32(const Pose2d& pose) {
           wrap_angle(static_cast<float>(pose.theta_rad))};
 }
 
-#define PICOLO_INSTANTIATE(T)                                                        \
-  template Pose2<T> compose(const Pose2<T>&, const Pose2<T>&);                       \
-  template Pose2<T> inverse(const Pose2<T>&);                                        \
-  template Pose2<T> between(const Pose2<T>&, const Pose2<T>&);                       \
-  template Point2<T> transform(const Pose2<T>&, const Point2<T>&);                   \
-  template Pose2<T> exp_se2(const Tangent2<T>&);                                     \
-  template Tangent2<T> log_se2(const Pose2<T>&);                                     \
-  template Matrix3<T> adjoint(const Pose2<T>&);                                      \
-  template Matrix3<T> right_jacobian(const Tangent2<T>&);                            \
-  template Matrix3<T> left_jacobian(const Tangent2<T>&);                             \
-  template Matrix3<T> compose_jacobian_left(const Pose2<T>&, const Pose2<T>&);       \
-  template Matrix3<T> compose_jacobian_right(const Pose2<T>&);                       \
+#define PICOLO_INSTANTIATE(T)                                                  \
+  template Pose2<T> compose(const Pose2<T>&, const Pose2<T>&);                 \
+  template Pose2<T> inverse(const Pose2<T>&);                                  \
+  template Pose2<T> between(const Pose2<T>&, const Pose2<T>&);                 \
+  template Point2<T> transform(const Pose2<T>&, const Point2<T>&);             \
+  template Pose2<T> exp_se2(const Tangent2<T>&);                               \
+  template Tangent2<T> log_se2(const Pose2<T>&);                               \
+  template Matrix3<T> adjoint(const Pose2<T>&);                                \
+  template Matrix3<T> right_jacobian(const Tangent2<T>&);                      \
+  template Matrix3<T> left_jacobian(const Tangent2<T>&);                       \
+  template Matrix3<T> compose_jacobian_left(const Pose2<T>&, const Pose2<T>&); \
+  template Matrix3<T> compose_jacobian_right(const Pose2<T>&);                 \
   template Pose2<T> interpolate(const Pose2<T>&, const Pose2<T>&, T)
 PICOLO_INSTANTIATE(float);
 PICOLO_INSTANTIATE(double);

@@ -7,8 +7,8 @@
 
 namespace picolo::inline v0 {
 
-SweepAssemblerCore::SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,
-                                       std::span<RangeReturn> second)
+SweepAssemblerCore::SweepAssemblerCore(const SweepAssemblerConfig& config,
+                                       std::span<RangeReturn> first, std::span<RangeReturn> second)
     : config_(config), buffers_{first, second} {}
 
 void SweepAssemblerCore::begin(const RangeReading& reading) {

@@ -27,9 +27,13 @@ const StampedPose& PoseBufferCore::by_age(std::size_t index) const {
   return storage_[position >= storage_.size() ? position - storage_.size() : position];
 }
 
-const StampedPose& PoseBufferCore::newest() const { return by_age(size_ - 1); }
+const StampedPose& PoseBufferCore::newest() const {
+  return by_age(size_ - 1);
+}
 
-const StampedPose& PoseBufferCore::oldest() const { return by_age(0); }
+const StampedPose& PoseBufferCore::oldest() const {
+  return by_age(0);
+}
 
 Result<Pose2d> PoseBufferCore::at(Timestamp stamp) const {
   if (size_ == 0 || stamp > newest().stamp) { return Status::not_ready; }
@@ -44,7 +48,8 @@ Result<Pose2d> PoseBufferCore::at(Timestamp stamp) const {
   }
   const StampedPose& before = by_age(low);
   const StampedPose& after = by_age(high);
-  const double share = to_seconds_f64(stamp - before.stamp) / to_seconds_f64(after.stamp - before.stamp);
+  const double share =
+      to_seconds_f64(stamp - before.stamp) / to_seconds_f64(after.stamp - before.stamp);
   return interpolate(before.odom_T_base, after.odom_T_base, share);
 }
 

@@ -17,15 +17,16 @@ constexpr float kStampAgreement_s = 1e-3F;  // a stamp is whole microseconds, an
 bool offsets_agree(const Sweep& sweep) {
   const float duration_s = to_seconds(sweep.last_stamp - sweep.stamp);
   const float last_s = sweep.returns.back().since_sweep_start_s;
-  return sweep.returns.front().since_sweep_start_s >= 0.0F && last_s >= duration_s - kStampAgreement_s &&
-         last_s <= duration_s + kStampAgreement_s;
+  return sweep.returns.front().since_sweep_start_s >= 0.0F &&
+         last_s >= duration_s - kStampAgreement_s && last_s <= duration_s + kStampAgreement_s;
 }
 
 }  // namespace
 
 Status UndistorterCore::begin(const UndistortConfig& config, const Sweep& sweep) {
   busy_ = false;
-  if (!config.valid() || sweep.returns.empty() || sweep.last_stamp < sweep.stamp || !offsets_agree(sweep)) {
+  if (!config.valid() || sweep.returns.empty() || sweep.last_stamp < sweep.stamp ||
+      !offsets_agree(sweep)) {
     return Status::invalid_argument;
   }
   if (sweep.returns.size() > x_m_.size()) { return Status::full; }
@@ -80,18 +81,22 @@ Status UndistorterCore::advance_segment(const PoseBufferCore& poses) {
   segment_turn_rad_ = wrap_angle(segment_to_.theta_rad - segment_from_.theta_rad);
   segment_start_s_ = to_seconds(segment_start_ - sweep_.stamp);
   segment_end_s_ = to_seconds(segment_end_ - sweep_.stamp);
-  // A sweep of one return, or of returns with one stamp, has a segment without length: its start pose holds.
-  inverse_segment_per_s_ = segment_end_ > segment_start_ ? 1.0F / (segment_end_s_ - segment_start_s_) : 0.0F;
+  // A sweep of one return, or of returns with one stamp, has a segment without length: its start
+  // pose holds.
+  inverse_segment_per_s_ =
+      segment_end_ > segment_start_ ? 1.0F / (segment_end_s_ - segment_start_s_) : 0.0F;
   return Status::ok;
 }
 
 void UndistorterCore::place(const RangeReturn& beam) {
   const float elapsed_s = beam.since_sweep_start_s - segment_start_s_;
   const float share = std::clamp(elapsed_s * inverse_segment_per_s_, 0.0F, 1.0F);
-  const SinCos<float> direction = sin_cos(segment_from_.theta_rad + share * segment_turn_rad_ + beam.bearing_rad);
-  x_m_[points_] =
-      segment_from_.x_m + share * (segment_to_.x_m - segment_from_.x_m) + beam.range_m * direction.cosine;
-  y_m_[points_] = segment_from_.y_m + share * (segment_to_.y_m - segment_from_.y_m) + beam.range_m * direction.sine;
+  const SinCos<float> direction =
+      sin_cos(segment_from_.theta_rad + share * segment_turn_rad_ + beam.bearing_rad);
+  x_m_[points_] = segment_from_.x_m + share * (segment_to_.x_m - segment_from_.x_m) +
+                  beam.range_m * direction.cosine;
+  y_m_[points_] = segment_from_.y_m + share * (segment_to_.y_m - segment_from_.y_m) +
+                  beam.range_m * direction.sine;
   ++points_;
 }
 

@@ -46,12 +46,14 @@ TEST(Math, ArcTangentStaysWithinItsStatedError) {
     const double scale = std::pow(10.0, random.uniform(-6, 6));
     const double y = scale * random.uniform(-1, 1);
     const double x = random.uniform(-1, 1);
-    worst_f64 = std::max(worst_f64, std::abs(arc_tangent2(y, x) - std::atan2(static_cast<long double>(y),
-                                                                             static_cast<long double>(x))));
+    worst_f64 =
+        std::max(worst_f64, std::abs(arc_tangent2(y, x) - std::atan2(static_cast<long double>(y),
+                                                                     static_cast<long double>(x))));
     const auto ys = static_cast<float>(y);
     const auto xs = static_cast<float>(x);
-    worst_f32 = std::max(worst_f32, std::abs(arc_tangent2(ys, xs) - std::atan2(static_cast<long double>(ys),
-                                                                               static_cast<long double>(xs))));
+    worst_f32 = std::max(worst_f32,
+                         std::abs(arc_tangent2(ys, xs) - std::atan2(static_cast<long double>(ys),
+                                                                    static_cast<long double>(xs))));
   }
   EXPECT_LE(worst_f32, 3e-7L);
   EXPECT_LE(worst_f64, 5e-16L);
@@ -75,16 +77,20 @@ TEST(Math, ExponentialAndLogarithmStayWithinTheirStatedErrors) {
   long double worst_log_f64 = 0;
   for (int i = 0; i < kSamples; ++i) {
     const auto single = static_cast<float>(random.uniform(-80, 80));
-    worst_exp_f32 = std::max(worst_exp_f32, std::abs(exponential(single) / std::exp(static_cast<long double>(single)) - 1));
+    worst_exp_f32 =
+        std::max(worst_exp_f32,
+                 std::abs(exponential(single) / std::exp(static_cast<long double>(single)) - 1));
     const double wide = random.uniform(-700, 700);
-    worst_exp_f64 = std::max(worst_exp_f64, std::abs(exponential(wide) / std::exp(static_cast<long double>(wide)) - 1));
+    worst_exp_f64 = std::max(
+        worst_exp_f64, std::abs(exponential(wide) / std::exp(static_cast<long double>(wide)) - 1));
     const auto positive = static_cast<float>(std::exp(random.uniform(-85, 85)));
     const long double log_f32 = std::log(static_cast<long double>(positive));
-    worst_log_f32 = std::max(worst_log_f32, std::abs(logarithm(positive) - log_f32) / std::max(1.0L, std::abs(log_f32)));
+    worst_log_f32 = std::max(
+        worst_log_f32, std::abs(logarithm(positive) - log_f32) / std::max(1.0L, std::abs(log_f32)));
     const double positive_wide = std::exp(random.uniform(-700, 700));
     const long double log_f64 = std::log(static_cast<long double>(positive_wide));
-    worst_log_f64 =
-        std::max(worst_log_f64, std::abs(logarithm(positive_wide) - log_f64) / std::max(1.0L, std::abs(log_f64)));
+    worst_log_f64 = std::max(worst_log_f64, std::abs(logarithm(positive_wide) - log_f64) /
+                                                std::max(1.0L, std::abs(log_f64)));
   }
   EXPECT_LE(worst_exp_f32, 2e-7L);
   EXPECT_LE(worst_exp_f64, 4e-16L);

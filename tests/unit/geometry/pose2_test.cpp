@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// The group laws of SE(2), at identity, at tiny, at random and at nearly half-turn rotations, for both scalars; and every
-// analytic Jacobian against central differences.
+// The group laws of SE(2), at identity, at tiny, at random and at nearly half-turn rotations, for
+// both scalars; and every analytic Jacobian against central differences.
 
 #include "picolo/geometry/pose2.hpp"
 
@@ -41,8 +41,8 @@ class Se2Laws : public ::testing::Test {
   static void expect_near(const Pose2<T>& a, const Pose2<T>& b, double scale = 1.0) {
     EXPECT_NEAR(a.x_m, b.x_m, scale * tolerance() * 10);
     EXPECT_NEAR(a.y_m, b.y_m, scale * tolerance() * 10);
-    EXPECT_NEAR(wrap_angle(static_cast<double>(a.theta_rad) - static_cast<double>(b.theta_rad)), 0.0,
-                scale * tolerance());
+    EXPECT_NEAR(wrap_angle(static_cast<double>(a.theta_rad) - static_cast<double>(b.theta_rad)),
+                0.0, scale * tolerance());
   }
 };
 
@@ -66,7 +66,8 @@ TYPED_TEST(Se2Laws, InverseCancelsOnBothSides) {
 TYPED_TEST(Se2Laws, CompositionIsAssociative) {
   const auto poses = this->samples();
   for (std::size_t i = 0; i + 2 < poses.size(); ++i) {
-    this->expect_near((poses[i] * poses[i + 1]) * poses[i + 2], poses[i] * (poses[i + 1] * poses[i + 2]), 3.0);
+    this->expect_near((poses[i] * poses[i + 1]) * poses[i + 2],
+                      poses[i] * (poses[i + 1] * poses[i + 2]), 3.0);
   }
 }
 
@@ -89,22 +90,25 @@ TYPED_TEST(Se2Laws, ActionIsCompatibleWithComposition) {
 }
 
 TYPED_TEST(Se2Laws, ExpAndLogAreInverse) {
-  for (const auto& pose : this->samples()) { this->expect_near(exp_se2(log_se2(pose)), pose, 20.0); }
+  for (const auto& pose : this->samples()) {
+    this->expect_near(exp_se2(log_se2(pose)), pose, 20.0);
+  }
 }
 
 TYPED_TEST(Se2Laws, AdjointMovesTheTangentAcross) {
   for (const auto& pose : this->samples()) {
     const Tangent2<TypeParam> tau{TypeParam(0.2), TypeParam(-0.1), TypeParam(0.3)};
     const Matrix3<TypeParam> ad = adjoint(pose);
-    const Tangent2<TypeParam> moved{ad(0, 0) * tau.x_m + ad(0, 1) * tau.y_m + ad(0, 2) * tau.theta_rad,
-                                    ad(1, 0) * tau.x_m + ad(1, 1) * tau.y_m + ad(1, 2) * tau.theta_rad,
-                                    tau.theta_rad};
+    const Tangent2<TypeParam> moved{
+        ad(0, 0) * tau.x_m + ad(0, 1) * tau.y_m + ad(0, 2) * tau.theta_rad,
+        ad(1, 0) * tau.x_m + ad(1, 1) * tau.y_m + ad(1, 2) * tau.theta_rad, tau.theta_rad};
     this->expect_near(pose * exp_se2(tau), exp_se2(moved) * pose, 10.0);
   }
 }
 
 std::vector<Tangent2<double>> tangents() {
-  std::vector<Tangent2<double>> all{{0, 0, 0}, {1, -2, 1e-8}, {0.3, 0.4, 0.029}, {0.3, 0.4, 0.031}, {1, 2, 3.1}};
+  std::vector<Tangent2<double>> all{
+      {0, 0, 0}, {1, -2, 1e-8}, {0.3, 0.4, 0.029}, {0.3, 0.4, 0.031}, {1, 2, 3.1}};
   Random random{11};
   for (int i = 0; i < 100; ++i) {
     const double x = random.uniform(-3, 3);
@@ -139,7 +143,9 @@ TEST(Se2Jacobians, LeftJacobianIsAdjointTimesRight) {
   for (const auto& tau : tangents()) {
     const Matrix3d expected = product(adjoint(exp_se2(tau)), right_jacobian(tau));
     const Matrix3d actual = left_jacobian(tau);
-    for (std::size_t i = 0; i < 9; ++i) { EXPECT_NEAR(actual.elements[i], expected.elements[i], 1e-12); }
+    for (std::size_t i = 0; i < 9; ++i) {
+      EXPECT_NEAR(actual.elements[i], expected.elements[i], 1e-12);
+    }
   }
 }
 

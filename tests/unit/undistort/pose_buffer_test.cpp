@@ -8,7 +8,9 @@
 namespace picolo {
 namespace {
 
-Timestamp at_ms(int ms) { return Timestamp{Duration{ms * 1000}}; }
+Timestamp at_ms(int ms) {
+  return Timestamp{Duration{ms * 1000}};
+}
 
 TEST(PoseBuffer, EmptyKnowsNothing) {
   const PoseBuffer<4> buffer;
@@ -41,7 +43,9 @@ TEST(PoseBuffer, RefusesPosesThatAreNotNewer) {
 
 TEST(PoseBuffer, OldestMakesRoomAndEveryHeldInstantIsFound) {
   PoseBuffer<5> buffer;
-  for (int i = 0; i < 23; ++i) { ASSERT_EQ(buffer.push({at_ms(10 * i), {1.0 * i, 0.0, 0.0}}), Status::ok); }
+  for (int i = 0; i < 23; ++i) {
+    ASSERT_EQ(buffer.push({at_ms(10 * i), {1.0 * i, 0.0, 0.0}}), Status::ok);
+  }
   EXPECT_EQ(buffer.size(), 5U);
   EXPECT_EQ(buffer.at(at_ms(179)).status(), Status::out_of_range);
   for (int ms = 180; ms <= 220; ++ms) { EXPECT_NEAR(buffer.at(at_ms(ms))->x_m, 0.1 * ms, 1e-12); }

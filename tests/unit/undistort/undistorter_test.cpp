@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// Undistortion against the closed form, over every reference instant and output frame, and the faults of textbook code.
+// Undistortion against the closed form, over every reference instant and output frame, and the
+// faults of textbook code.
 
 #include "picolo/undistort/undistorter.hpp"
 
@@ -21,8 +22,7 @@ struct Circle {
   double speed_mps = 0.8;
   double omega_radps = 1.5;
   [[nodiscard]] Pose2d at(double t_s) const {
-    const Pose2d motion =
-        exp_se2(Tangent2<double>{speed_mps * t_s, 0.0, omega_radps * t_s});
+    const Pose2d motion = exp_se2(Tangent2<double>{speed_mps * t_s, 0.0, omega_radps * t_s});
     return Pose2d{3.0, -2.0, 2.5} * motion;
   }
   void fill(PoseBuffer<256>& poses, int from_ms, int to_ms, int every_ms) const {
@@ -32,7 +32,8 @@ struct Circle {
   }
 };
 
-/// What the lidar measures of the wall of points `odom_p(k)`: exact ranges from the true pose at each beam's time.
+/// What the lidar measures of the wall of points `odom_p(k)`: exact ranges from the true pose at
+/// each beam's time.
 struct Recorded {
   std::vector<RangeReturn> returns;
   std::vector<Point2<double>> odom_p;
@@ -43,12 +44,13 @@ Recorded record(const Circle& circle, const Pose2f& base_T_lidar, double start_s
                 std::size_t beams = kBeams) {
   Recorded recorded;
   for (std::size_t k = 0; k < beams; ++k) {
-    const double t_s = beams > 1 ? duration_s * static_cast<double>(k) / static_cast<double>(beams - 1) : 0.0;
+    const double t_s =
+        beams > 1 ? duration_s * static_cast<double>(k) / static_cast<double>(beams - 1) : 0.0;
     const Pose2d odom_T_lidar = circle.at(start_s + t_s) * to_f64(base_T_lidar);
     const double bearing = -3.1 + 6.2 * static_cast<double>(k) / static_cast<double>(beams);
     const double range = 4.0 + std::sin(5.0 * bearing);
-    recorded.odom_p.push_back(
-        transform(odom_T_lidar, Point2<double>{range * std::cos(bearing), range * std::sin(bearing)}));
+    recorded.odom_p.push_back(transform(
+        odom_T_lidar, Point2<double>{range * std::cos(bearing), range * std::sin(bearing)}));
     recorded.returns.push_back(
         {static_cast<float>(range), static_cast<float>(bearing), static_cast<float>(t_s)});
   }
@@ -69,17 +71,21 @@ Status run(Undistorter<kBeams>& undistorter, const UndistortConfig& config, cons
   return status;
 }
 
-double worst_error(const UndistortedSweep& result, const Recorded& recorded, const Pose2d& odom_T_b) {
+double worst_error(const UndistortedSweep& result, const Recorded& recorded,
+                   const Pose2d& odom_T_b) {
   double worst = 0.0;
   for (std::size_t i = 0; i < result.points.size(); ++i) {
-    const Point2<double> p = transform(
-        odom_T_b, Point2<double>{static_cast<double>(result.points.x_m[i]), static_cast<double>(result.points.y_m[i])});
-    worst = std::max(worst, std::hypot(p.x_m - recorded.odom_p[i].x_m, p.y_m - recorded.odom_p[i].y_m));
+    const Point2<double> p =
+        transform(odom_T_b, Point2<double>{static_cast<double>(result.points.x_m[i]),
+                                           static_cast<double>(result.points.y_m[i])});
+    worst =
+        std::max(worst, std::hypot(p.x_m - recorded.odom_p[i].x_m, p.y_m - recorded.odom_p[i].y_m));
   }
   return worst;
 }
 
-class UndistorterFrames : public ::testing::TestWithParam<std::tuple<SweepReference, SweepFrame, int>> {};
+class UndistorterFrames
+    : public ::testing::TestWithParam<std::tuple<SweepReference, SweepFrame, int>> {};
 
 TEST_P(UndistorterFrames, PutsEveryReturnWhereItWasMeasured) {
   const auto [reference, frame, odometry_ms] = GetParam();
@@ -94,7 +100,7 @@ TEST_P(UndistorterFrames, PutsEveryReturnWhereItWasMeasured) {
   Undistorter<kBeams> undistorter;
   ASSERT_EQ(run(undistorter, config, recorded.sweep, poses), Status::ok);
 
-  const double reference_s = reference == SweepReference::first_return ? 0.12
+  const double reference_s = reference == SweepReference::first_return  ? 0.12
                              : reference == SweepReference::last_return ? 0.22
                                                                         : 0.2;
   Pose2d odom_T_b = circle.at(reference_s);
@@ -112,7 +118,8 @@ TEST_P(UndistorterFrames, PutsEveryReturnWhereItWasMeasured) {
 
 INSTANTIATE_TEST_SUITE_P(All, UndistorterFrames,
                          ::testing::Combine(::testing::Values(SweepReference::first_return,
-                                                              SweepReference::last_return, SweepReference::stamp),
+                                                              SweepReference::last_return,
+                                                              SweepReference::stamp),
                                             ::testing::Values(SweepFrame::base, SweepFrame::lidar),
                                             ::testing::Values(2, 5, 20, 40)));
 
@@ -152,7 +159,8 @@ TEST(Undistorter, WaitsForALateReferenceToo) {
   PoseBuffer<256> poses;
   circle.fill(poses, 0, 200, 10);
   const Recorded recorded = record(circle, {}, 0.1, 0.1);
-  const UndistortConfig config{.reference = SweepReference::stamp, .reference_stamp = Timestamp{210ms}};
+  const UndistortConfig config{.reference = SweepReference::stamp,
+                               .reference_stamp = Timestamp{210ms}};
   Undistorter<kBeams> undistorter;
   ASSERT_EQ(undistorter.begin(config, recorded.sweep), Status::ok);
   EXPECT_EQ(undistorter.step(poses.core(), kBeams), Status::not_ready);
@@ -212,7 +220,8 @@ TEST(Undistorter, RefusesNonsenseWithTheRightStatus) {
   Sweep longer = recorded.sweep;
   longer.last_stamp = longer.stamp + 150ms;
   EXPECT_EQ(undistorter.begin({}, longer), Status::invalid_argument);
-  EXPECT_EQ(undistorter.begin({.limits = {.min_m = 3.0F, .max_m = 1.0F}}, recorded.sweep), Status::invalid_argument);
+  EXPECT_EQ(undistorter.begin({.limits = {.min_m = 3.0F, .max_m = 1.0F}}, recorded.sweep),
+            Status::invalid_argument);
   EXPECT_EQ(undistorter.begin({.max_segment = 6ms}, recorded.sweep), Status::invalid_argument);
   EXPECT_EQ(undistorter.step(poses.core(), 10), Status::invalid_argument);
   Undistorter<10> small;

@@ -13,13 +13,14 @@
 namespace picolo::inline v0 {
 
 struct ByteStoreGeometry {
-  std::size_t size = 0;         ///< bytes in all; a multiple of `sector`
-  std::size_t sector = 0;       ///< what `erase` erases
-  std::size_t granule = 1;      ///< `program` takes multiples of this, at multiples of this: 1, 4 or 8
+  std::size_t size = 0;     ///< bytes in all; a multiple of `sector`
+  std::size_t sector = 0;   ///< what `erase` erases
+  std::size_t granule = 1;  ///< `program` takes multiples of this, at multiples of this: 1, 4 or 8
 };
 
-/// NOR semantics: erased bytes read 0xFF; programming only clears bits; a granule is programmed once after an erase.
-/// Never blocks longer than the port states for one granule or one sector. All calls from one context.
+/// NOR semantics: erased bytes read 0xFF; programming only clears bits; a granule is programmed
+/// once after an erase. Never blocks longer than the port states for one granule or one sector. All
+/// calls from one context.
 class ByteStore {
  public:
   [[nodiscard]] virtual ByteStoreGeometry geometry() const = 0;

@@ -14,12 +14,12 @@ namespace picolo::inline v0 {
 
 /// A classic CAN frame. Error frames and CAN FD frames never leave a port.
 struct CanFrame {
-  Timestamp stamp{};                        ///< end of frame on the wire, as near to it as `source` says
+  Timestamp stamp{};  ///< end of frame on the wire, as near to it as `source` says
   StampSource source = StampSource::read;
-  std::uint32_t id = 0;                     ///< 11 bits, or 29 bits when `extended`
+  std::uint32_t id = 0;  ///< 11 bits, or 29 bits when `extended`
   bool extended = false;
-  bool remote = false;                      ///< a request without data
-  std::uint8_t length = 0;                  ///< 0..8
+  bool remote = false;      ///< a request without data
+  std::uint8_t length = 0;  ///< 0..8
   std::array<std::uint8_t, 8> data{};
 };
 
@@ -28,22 +28,23 @@ enum class CanState : std::uint8_t { active, warning, passive, bus_off, absent }
 
 struct CanStatus {
   CanState state = CanState::active;
-  std::uint32_t received = 0;      ///< frames handed out
-  std::uint32_t transmitted = 0;   ///< frames accepted for sending
-  std::uint32_t rx_lost = 0;       ///< frames lost before `receive` (full queue or FIFO)
-  std::uint32_t tx_refused = 0;    ///< frames that found the send queue full
+  std::uint32_t received = 0;     ///< frames handed out
+  std::uint32_t transmitted = 0;  ///< frames accepted for sending
+  std::uint32_t rx_lost = 0;      ///< frames lost before `receive` (full queue or FIFO)
+  std::uint32_t tx_refused = 0;   ///< frames that found the send queue full
   std::uint32_t error_frames = 0;
-  std::uint32_t restarts = 0;      ///< recoveries from bus-off
+  std::uint32_t restarts = 0;  ///< recoveries from bus-off
 };
 
 /// One classic CAN controller. Never blocks; all calls from one context. Counters are never reset.
 /// Cost: each call is bounded by the port, at most one frame copied.
 class CanBus {
  public:
-  /// The oldest waiting frame. `not_ready`: none waits. `disconnected`: the controller is gone or down; may come back.
+  /// The oldest waiting frame. `not_ready`: none waits. `disconnected`: the controller is gone or
+  /// down; may come back.
   virtual Result<CanFrame> receive() = 0;
-  /// Queues one frame. `full`: no room now, try in a later cycle. `invalid_argument`: length or id out of range.
-  /// `disconnected`: as above.
+  /// Queues one frame. `full`: no room now, try in a later cycle. `invalid_argument`: length or id
+  /// out of range. `disconnected`: as above.
   virtual Status transmit(const CanFrame& frame) = 0;
   [[nodiscard]] virtual CanStatus status() const = 0;
 

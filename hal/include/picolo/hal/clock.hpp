@@ -10,8 +10,8 @@
 
 namespace picolo::inline v0 {
 
-/// Monotonic time. Only ports and the executive read it. Never steps back, extends hardware counters to 64 bits itself.
-/// Context: any. Cost: a few instructions.
+/// Monotonic time. Only ports and the executive read it. Never steps back, extends hardware
+/// counters to 64 bits itself. Context: any. Cost: a few instructions.
 class Clock {
  public:
   [[nodiscard]] virtual Timestamp now() = 0;
@@ -23,7 +23,8 @@ class Clock {
   ~Clock() = default;
 };
 
-/// A free-running counter for measuring work: processor cycles, or instructions, or nanoseconds; wraps at 2^32.
+/// A free-running counter for measuring work: processor cycles, or instructions, or nanoseconds;
+/// wraps at 2^32.
 class CycleCounter {
  public:
   [[nodiscard]] virtual std::uint32_t cycles() = 0;

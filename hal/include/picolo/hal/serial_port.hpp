@@ -15,8 +15,8 @@ namespace picolo::inline v0 {
 
 /// What one `read` delivered.
 struct SerialRead {
-  std::size_t size = 0;                    ///< bytes written into the caller's buffer
-  Timestamp last_byte_stamp{};             ///< when the last of these bytes had arrived
+  std::size_t size = 0;         ///< bytes written into the caller's buffer
+  Timestamp last_byte_stamp{};  ///< when the last of these bytes had arrived
   StampSource source = StampSource::read;
 };
 
@@ -26,7 +26,8 @@ class SerialPort {
   /// Copies waiting bytes, oldest first, at most `buffer.size()`. `not_ready`: none wait.
   /// `disconnected`: the device is gone; may come back.
   virtual Result<SerialRead> read(std::span<std::uint8_t> buffer) = 0;
-  /// Queues bytes and returns how many were taken (may be fewer). `full`: none. `disconnected`: as above.
+  /// Queues bytes and returns how many were taken (may be fewer). `full`: none. `disconnected`: as
+  /// above.
   virtual Result<std::size_t> write(std::span<const std::uint8_t> bytes) = 0;
   /// Bits per second of the line, for drivers that compute when a byte began. Never 0.
   [[nodiscard]] virtual std::uint32_t baud() const = 0;

@@ -6,7 +6,8 @@
 
 namespace picolo::inline v0 {
 
-/// Started by the port; must be stroked more often than the period that the port states. Context: cycle only.
+/// Started by the port; must be stroked more often than the period that the port states. Context:
+/// cycle only.
 class Watchdog {
  public:
   virtual void stroke() = 0;

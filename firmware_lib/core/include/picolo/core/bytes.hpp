@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Integers from and to bytes, and differences of counters that wrap. No casts of pointers anywhere.
+/// Integers from and to bytes, and differences of counters that wrap. No casts of pointers
+/// anywhere.
 #pragma once
 
 #include <bit>
@@ -13,7 +14,8 @@ namespace picolo::inline v0 {
 
 using ByteView = std::span<const std::uint8_t>;
 
-// Precondition of all loads and stores: `offset + size <= bytes.size()`; the caller has checked the length.
+// Precondition of all loads and stores: `offset + size <= bytes.size()`; the caller has checked the
+// length.
 
 [[nodiscard]] constexpr std::uint16_t load_u16_le(ByteView bytes, std::size_t offset) {
   return static_cast<std::uint16_t>(bytes[offset] | (bytes[offset + 1] << 8));
@@ -26,7 +28,8 @@ using ByteView = std::span<const std::uint8_t>;
          (static_cast<std::uint32_t>(load_u16_le(bytes, offset + 2)) << 16);
 }
 [[nodiscard]] constexpr std::uint32_t load_u32_be(ByteView bytes, std::size_t offset) {
-  return (static_cast<std::uint32_t>(load_u16_be(bytes, offset)) << 16) | load_u16_be(bytes, offset + 2);
+  return (static_cast<std::uint32_t>(load_u16_be(bytes, offset)) << 16) |
+         load_u16_be(bytes, offset + 2);
 }
 [[nodiscard]] constexpr std::int16_t load_i16_le(ByteView bytes, std::size_t offset) {
   return std::bit_cast<std::int16_t>(load_u16_le(bytes, offset));
@@ -38,11 +41,13 @@ using ByteView = std::span<const std::uint8_t>;
   return std::bit_cast<std::int32_t>(load_u32_be(bytes, offset));
 }
 
-constexpr void store_u16_le(std::span<std::uint8_t> bytes, std::size_t offset, std::uint16_t value) {
+constexpr void store_u16_le(std::span<std::uint8_t> bytes, std::size_t offset,
+                            std::uint16_t value) {
   bytes[offset] = static_cast<std::uint8_t>(value & 0xFFU);
   bytes[offset + 1] = static_cast<std::uint8_t>(value >> 8);
 }
-constexpr void store_u32_le(std::span<std::uint8_t> bytes, std::size_t offset, std::uint32_t value) {
+constexpr void store_u32_le(std::span<std::uint8_t> bytes, std::size_t offset,
+                            std::uint32_t value) {
   store_u16_le(bytes, offset, static_cast<std::uint16_t>(value & 0xFFFFU));
   store_u16_le(bytes, offset + 2, static_cast<std::uint16_t>(value >> 16));
 }

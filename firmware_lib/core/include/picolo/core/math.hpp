@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Elementary functions that give the same bits on every platform: own polynomials over + - * / and sqrt, which IEEE 754
-/// defines exactly; libm does not (glibc and newlib differ by 1-2 ulp, glibc with itself by CPU).
-/// Stated errors are maxima measured by tests/unit/core against long double.
+/// Elementary functions that give the same bits on every platform: own polynomials over + - * / and
+/// sqrt, which IEEE 754 defines exactly; libm does not (glibc and newlib differ by 1-2 ulp, glibc
+/// with itself by CPU). Stated errors are maxima measured by tests/unit/core against long double.
 /// Cost: 30 to 80 instructions. Context: any. NaN in, NaN out.
 #pragma once
 
@@ -15,7 +15,8 @@ struct SinCos {
   T cosine{};
 };
 
-/// Absolute error <= 1.2e-7 (float) for |angle| <= 1000 rad, <= 3e-16 (double) for |angle| <= 1e5 rad.
+/// Absolute error <= 1.2e-7 (float) for |angle| <= 1000 rad, <= 3e-16 (double) for |angle| <= 1e5
+/// rad.
 [[nodiscard]] SinCos<float> sin_cos(float angle_rad);
 [[nodiscard]] SinCos<double> sin_cos(double angle_rad);
 
@@ -27,7 +28,8 @@ struct SinCos {
 [[nodiscard]] float exponential(float x);
 [[nodiscard]] double exponential(double x);
 
-/// Natural logarithm; x <= 0 gives NaN, infinity gives infinity. Error relative to max(1, |log x|): <= 2e-7, <= 4e-16.
+/// Natural logarithm; x <= 0 gives NaN, infinity gives infinity. Error relative to max(1, |log x|):
+/// <= 2e-7, <= 4e-16.
 [[nodiscard]] float logarithm(float x);
 [[nodiscard]] double logarithm(double x);
 

@@ -17,9 +17,11 @@ class [[nodiscard]] Result {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  constexpr Result(const T& value) : value_(value) {}        // NOLINT(google-explicit-constructor)
-  constexpr Result(Status status) : status_(status) {        // NOLINT(google-explicit-constructor)
-    if (status == Status::ok) { status_ = Status::invalid_argument; }  // ok without a value is a bug
+  constexpr Result(const T& value) : value_(value) {}  // NOLINT(google-explicit-constructor)
+  constexpr Result(Status status) : status_(status) {  // NOLINT(google-explicit-constructor)
+    if (status == Status::ok) {
+      status_ = Status::invalid_argument;
+    }  // ok without a value is a bug
   }
 
   [[nodiscard]] constexpr explicit operator bool() const { return status_ == Status::ok; }

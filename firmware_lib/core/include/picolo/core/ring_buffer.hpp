@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Single producer, single consumer ring: the only way data leaves an interrupt. The only header that
-/// includes <atomic>.
+/// Single producer, single consumer ring: the only way data leaves an interrupt. The only header
+/// that includes <atomic>.
 #pragma once
 
 #include <array>
@@ -56,10 +56,10 @@ class SpscRing {
 };
 
 /// One writer publishes, any number of readers of any priority copy the newest complete value.
-/// Four slots, each an array of relaxed atomic words, and one sequence number: a reader starts over only when the
-/// writer published three more values during its copy, and gives up after `kAttempts` (`read` then returns false), so
-/// that it is bounded however badly it is preempted.
-/// Cost: O(sizeof(T)), wait-free on both sides. Context: `publish` from one context, `read` from any.
+/// Four slots, each an array of relaxed atomic words, and one sequence number: a reader starts over
+/// only when the writer published three more values during its copy, and gives up after `kAttempts`
+/// (`read` then returns false), so that it is bounded however badly it is preempted. Cost:
+/// O(sizeof(T)), wait-free on both sides. Context: `publish` from one context, `read` from any.
 template <typename T>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);
@@ -85,7 +85,9 @@ class LatestValue {
       if (before == 0) { return false; }
       std::array<std::uint32_t, kWords> words{};
       const auto& slot = slots_[before % kSlots];
-      for (std::size_t i = 0; i < kWords; ++i) { words[i] = slot[i].load(std::memory_order_relaxed); }
+      for (std::size_t i = 0; i < kWords; ++i) {
+        words[i] = slot[i].load(std::memory_order_relaxed);
+      }
       std::atomic_thread_fence(std::memory_order_acquire);
       // The slot is rewritten only while sequence_ goes from before + 3 to before + 4.
       if (sequence_.load(std::memory_order_relaxed) - before < kSlots - 1) {

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Time is a type: `Timestamp` for instants, `Duration` for differences, on one monotonic microsecond clock.
-/// The only header of the library that includes <chrono>.
+/// Time is a type: `Timestamp` for instants, `Duration` for differences, on one monotonic
+/// microsecond clock. The only header of the library that includes <chrono>.
 #pragma once
 
 #include <chrono>
@@ -10,8 +10,9 @@
 
 namespace picolo::inline v0 {
 
-/// The library's clock: 64-bit microseconds since an arbitrary start, never stepped. It has no `now()`:
-/// time enters through `hal::Clock` at the edge, drivers and algorithms never read a clock.
+/// The library's clock: 64-bit microseconds since an arbitrary start, never stepped. It has no
+/// `now()`: time enters through `hal::Clock` at the edge, drivers and algorithms never read a
+/// clock.
 struct MonotonicClock {
   using rep = std::int64_t;
   using period = std::micro;

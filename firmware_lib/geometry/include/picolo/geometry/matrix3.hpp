@@ -9,12 +9,15 @@
 
 namespace picolo::inline v0 {
 
-/// Row-major; rows and columns ordered (x, y, theta). Units m, m, rad of the frame that the owner states.
+/// Row-major; rows and columns ordered (x, y, theta). Units m, m, rad of the frame that the owner
+/// states.
 template <typename T>
 struct Matrix3 {
   std::array<T, 9> elements{};
 
-  [[nodiscard]] constexpr T& operator()(std::size_t row, std::size_t column) { return elements[3 * row + column]; }
+  [[nodiscard]] constexpr T& operator()(std::size_t row, std::size_t column) {
+    return elements[3 * row + column];
+  }
   [[nodiscard]] constexpr const T& operator()(std::size_t row, std::size_t column) const {
     return elements[3 * row + column];
   }

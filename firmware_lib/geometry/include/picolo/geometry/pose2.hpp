@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// SE(2): poses of the plane, their group operations and their Jacobians (Sola, Deray, Atchuthan 2018,
-/// "A micro Lie theory for state estimation in robotics").
-/// `a_T_b` maps b-coordinates to a-coordinates; frames in names must cancel: a_T_c = a_T_b * b_T_c.
-/// Every function exists for `float` (relative to the map window, per sweep) and `double` (world poses).
+/// SE(2): poses of the plane, their group operations and their Jacobians (Sola, Deray, Atchuthan
+/// 2018, "A micro Lie theory for state estimation in robotics"). `a_T_b` maps b-coordinates to
+/// a-coordinates; frames in names must cancel: a_T_c = a_T_b * b_T_c. Every function exists for
+/// `float` (relative to the map window, per sweep) and `double` (world poses).
 #pragma once
 
 #include "picolo/geometry/matrix3.hpp"
@@ -27,7 +27,8 @@ struct Pose2 {
   [[nodiscard]] friend constexpr bool operator==(const Pose2&, const Pose2&) = default;
 };
 
-/// An element of the Lie algebra se(2): a displacement along a constant twist, in the frame of its left end.
+/// An element of the Lie algebra se(2): a displacement along a constant twist, in the frame of its
+/// left end.
 template <typename T>
 struct Tangent2 {
   T x_m{};

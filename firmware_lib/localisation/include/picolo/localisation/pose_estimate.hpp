@@ -17,17 +17,17 @@ enum class HealthState : std::uint8_t { initialising, tracking, degraded, lost, 
 /// Why the health state is what it is. The number goes over the wire: append only.
 enum class HealthReason : std::uint8_t {
   none = 0,
-  starting = 1,             ///< no sweep matched yet
-  lidar_silent = 2,         ///< no sweep for longer than configured
-  wheels_silent = 3,        ///< no wheel ticks for longer than configured
-  gyro_silent = 4,          ///< no IMU sample for longer than configured
-  match_rejected = 5,       ///< the last matches did not pass the acceptance test
+  starting = 1,                ///< no sweep matched yet
+  lidar_silent = 2,            ///< no sweep for longer than configured
+  wheels_silent = 3,           ///< no wheel ticks for longer than configured
+  gyro_silent = 4,             ///< no IMU sample for longer than configured
+  match_rejected = 5,          ///< the last matches did not pass the acceptance test
   direction_unobservable = 6,  ///< the scene does not constrain a direction; odometry carries it
   too_few_points = 7,
   out_of_map = 8,
   relocalising = 9,
-  configuration = 10,       ///< a part refuses its configuration
-  overrun = 11,             ///< the cycle missed its deadlines
+  configuration = 10,  ///< a part refuses its configuration
+  overrun = 11,        ///< the cycle missed its deadlines
 };
 
 [[nodiscard]] const char* to_string(HealthState state);
@@ -35,15 +35,16 @@ enum class HealthReason : std::uint8_t {
 
 /// The published pose: map_T_base = map_T_odom * odom_T_base(stamp).
 struct PoseEstimate {
-  Timestamp stamp{};               ///< the instant of the pose
+  Timestamp stamp{};  ///< the instant of the pose
   Pose2d map_T_base{};
-  Pose2d odom_T_base{};            ///< continuous
-  Twist2 base_twist{};             ///< of base, in base
-  Matrix3f match_covariance{};     ///< of map_T_base given the map: x, y in map axes (m^2), theta (rad^2), growing with odometry since
-  Matrix3f drift_covariance{};     ///< of the map against the start, same axes; grows with distance
-  Pose2f last_jump{};              ///< by how much map_T_odom last moved the published pose, in base
-  Duration match_age{};            ///< stamp minus the reference instant of the last accepted match
-  std::uint32_t matches = 0;       ///< accepted so far
+  Pose2d odom_T_base{};         ///< continuous
+  Twist2 base_twist{};          ///< of base, in base
+  Matrix3f match_covariance{};  ///< of map_T_base given the map: x, y in map axes (m^2), theta
+                                ///< (rad^2), growing with odometry since
+  Matrix3f drift_covariance{};  ///< of the map against the start, same axes; grows with distance
+  Pose2f last_jump{};           ///< by how much map_T_odom last moved the published pose, in base
+  Duration match_age{};         ///< stamp minus the reference instant of the last accepted match
+  std::uint32_t matches = 0;    ///< accepted so far
   HealthState state = HealthState::initialising;
   HealthReason reason = HealthReason::starting;
 };

@@ -11,9 +11,10 @@
 
 namespace picolo::inline v0 {
 
-/// Accelerations and rates in the sensor's own axes (x forward, y left, z up when mounted as REP-103 asks).
+/// Accelerations and rates in the sensor's own axes (x forward, y left, z up when mounted as
+/// REP-103 asks).
 struct ImuSample {
-  Timestamp stamp{};                         ///< when the rates were measured
+  Timestamp stamp{};  ///< when the rates were measured
   StampSource source = StampSource::read;
   bool saturated = false;                    ///< at least one axis stands at the end of its range
   std::array<float, 3> acceleration_mps2{};  ///< specific force; at rest +9.81 on z

@@ -12,10 +12,10 @@ namespace picolo::inline v0 {
 
 /// One measured beam as a driver decodes it: absolute time, sensor's own polar coordinates.
 struct RangeReading {
-  Timestamp stamp{};           ///< when this beam was measured
-  float range_m = 0.0F;        ///< 0 when nothing came back
-  float bearing_rad = 0.0F;    ///< counter-clockwise from the sensor's x axis, in [-pi, pi]
-  bool starts_sweep = false;   ///< first reading of a new revolution
+  Timestamp stamp{};          ///< when this beam was measured
+  float range_m = 0.0F;       ///< 0 when nothing came back
+  float bearing_rad = 0.0F;   ///< counter-clockwise from the sensor's x axis, in [-pi, pi]
+  bool starts_sweep = false;  ///< first reading of a new revolution
 };
 
 /// One beam inside of a sweep. 12 bytes.
@@ -25,13 +25,15 @@ struct RangeReturn {
   float since_sweep_start_s = 0.0F;
 };
 
-/// Which ranges are measurements. Everything else (0, NaN, infinity, outside) is kept in the sweep, for its time, but
-/// never becomes a point.
+/// Which ranges are measurements. Everything else (0, NaN, infinity, outside) is kept in the sweep,
+/// for its time, but never becomes a point.
 struct RangeLimits {
   float min_m = 0.05F;
   float max_m = 30.0F;
   [[nodiscard]] constexpr bool valid() const { return min_m > 0.0F && max_m > min_m; }
-  [[nodiscard]] constexpr bool contains(float range_m) const { return range_m >= min_m && range_m <= max_m; }
+  [[nodiscard]] constexpr bool contains(float range_m) const {
+    return range_m >= min_m && range_m <= max_m;
+  }
 };
 
 }  // namespace picolo::inline v0

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// One revolution of the lidar, and the assembler that cuts the stream of readings into revolutions.
+/// One revolution of the lidar, and the assembler that cuts the stream of readings into
+/// revolutions.
 #pragma once
 
 #include <array>
@@ -18,10 +19,10 @@ namespace picolo::inline v0 {
 
 /// A view of a sweep; valid for the cycle in which it was handed out.
 struct Sweep {
-  Timestamp stamp{};                        ///< of the first return
-  Timestamp last_stamp{};                   ///< of the last return
-  std::uint32_t sequence = 0;               ///< counts complete sweeps since start; a gap means replaced sweeps
-  std::span<const RangeReturn> returns{};   ///< in the order of measurement
+  Timestamp stamp{};           ///< of the first return
+  Timestamp last_stamp{};      ///< of the last return
+  std::uint32_t sequence = 0;  ///< counts complete sweeps since start; a gap means replaced sweeps
+  std::span<const RangeReturn> returns{};  ///< in the order of measurement
 };
 
 struct SweepCounters {
@@ -29,7 +30,7 @@ struct SweepCounters {
   std::uint32_t replaced = 0;      ///< complete but not taken before the next one was complete
   std::uint32_t overflowed = 0;    ///< readings beyond the capacity, dropped
   std::uint32_t out_of_order = 0;  ///< readings older than their predecessor, dropped
-  std::uint32_t partial = 0;       ///< revolutions dropped as incomplete (the first one, or after a gap)
+  std::uint32_t partial = 0;  ///< revolutions dropped as incomplete (the first one, or after a gap)
 };
 
 struct SweepAssemblerConfig {
@@ -40,14 +41,15 @@ struct SweepAssemblerConfig {
   [[nodiscard]] constexpr bool valid() const { return max_gap > Duration{0} && min_readings > 0; }
 };
 
-/// The logic behind `SweepAssembler`, over storage it does not own: two buffers, one filling, one complete.
-/// Cost: `add` O(1). Context: cycle only.
+/// The logic behind `SweepAssembler`, over storage it does not own: two buffers, one filling, one
+/// complete. Cost: `add` O(1). Context: cycle only.
 class SweepAssemblerCore {
  public:
-  SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first, std::span<RangeReturn> second);
+  SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,
+                     std::span<RangeReturn> second);
 
-  /// Takes the next reading. `starts_sweep` completes the revolution before it. The first revolution is dropped:
-  /// nobody saw its beginning.
+  /// Takes the next reading. `starts_sweep` completes the revolution before it. The first
+  /// revolution is dropped: nobody saw its beginning.
   void add(const RangeReading& reading);
   /// True when a complete sweep waits.
   [[nodiscard]] bool ready() const { return ready_; }
@@ -75,7 +77,8 @@ class SweepAssemblerCore {
 template <std::size_t Capacity>
 class SweepAssembler {
  public:
-  explicit SweepAssembler(const SweepAssemblerConfig& config = {}) : core_(config, first_, second_) {}
+  explicit SweepAssembler(const SweepAssemblerConfig& config = {})
+      : core_(config, first_, second_) {}
   SweepAssembler(const SweepAssembler&) = delete;
   SweepAssembler& operator=(const SweepAssembler&) = delete;
   ~SweepAssembler() = default;

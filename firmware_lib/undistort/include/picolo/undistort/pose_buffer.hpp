@@ -19,8 +19,8 @@ struct StampedPose {
   Pose2d odom_T_base{};
 };
 
-/// The logic behind `PoseBuffer`, over storage it does not own. The oldest pose makes room for the newest.
-/// Cost: `push` O(1), `at` O(log n). Context: cycle only.
+/// The logic behind `PoseBuffer`, over storage it does not own. The oldest pose makes room for the
+/// newest. Cost: `push` O(1), `at` O(log n). Context: cycle only.
 class PoseBufferCore {
  public:
   explicit PoseBufferCore(std::span<StampedPose> storage);
@@ -47,7 +47,8 @@ class PoseBufferCore {
   std::size_t size_ = 0;
 };
 
-/// Storage: 32 bytes a pose. At one pose per 5 ms frame 64 poses cover 0.32 s: a 10 Hz sweep and its delays.
+/// Storage: 32 bytes a pose. At one pose per 5 ms frame 64 poses cover 0.32 s: a 10 Hz sweep and
+/// its delays.
 template <std::size_t Capacity>
 class PoseBuffer {
  public:

@@ -28,46 +28,49 @@ struct UndistortConfig {
   SweepReference reference = SweepReference::last_return;
   Timestamp reference_stamp{};  ///< used with SweepReference::stamp
   SweepFrame frame = SweepFrame::base;
-  Duration max_segment = 5ms;   ///< between two poses that are interpolated from the pose buffer
+  Duration max_segment = 5ms;  ///< between two poses that are interpolated from the pose buffer
   [[nodiscard]] constexpr bool valid() const {
     return limits.valid() && max_segment > Duration{0} && max_segment <= Duration{5000};
   }
 };
 
-/// Points of one sweep in the frame B, structure of arrays for the matching kernels. A view; see its owner for validity.
+/// Points of one sweep in the frame B, structure of arrays for the matching kernels. A view; see
+/// its owner for validity.
 struct PointsView {
   std::span<const float> x_m;
   std::span<const float> y_m;
   [[nodiscard]] std::size_t size() const { return x_m.size(); }
 };
 
-/// The result of an undistortion. Only measurements become points: a range of 0, NaN, infinity or outside of the limits
-/// stays out, however it would look after the transform.
+/// The result of an undistortion. Only measurements become points: a range of 0, NaN, infinity or
+/// outside of the limits stays out, however it would look after the transform.
 struct UndistortedSweep {
-  Timestamp reference{};           ///< the instant of frame B
-  std::uint32_t sequence = 0;      ///< of the sweep
-  Pose2d odom_T_base{};            ///< odometry at `reference`
-  PointsView points{};             ///< in B, in the order of measurement
-  Point2f lidar_at_first_m{};      ///< where the lidar stood in B at the first return of the sweep, ...
-  Point2f lidar_at_last_m{};       ///< ... and at the last: ray origins of the map update lie between
+  Timestamp reference{};       ///< the instant of frame B
+  std::uint32_t sequence = 0;  ///< of the sweep
+  Pose2d odom_T_base{};        ///< odometry at `reference`
+  PointsView points{};         ///< in B, in the order of measurement
+  Point2f lidar_at_first_m{};  ///< where the lidar stood in B at the first return of the sweep, ...
+  Point2f lidar_at_last_m{};   ///< ... and at the last: ray origins of the map update lie between
   std::size_t invalid_returns = 0;
 };
 
-/// p = (odom_T_B)^-1 * odom_T_base(t_i) * base_T_lidar * p_i for every return, with poses at most `max_segment` apart taken from
-/// the pose buffer and interpolated between, whatever the odometry's rate. Bounded slices: `begin`, then `step` until `ok`.
-/// Context: cycle only.
+/// p = (odom_T_B)^-1 * odom_T_base(t_i) * base_T_lidar * p_i for every return, with poses at most
+/// `max_segment` apart taken from the pose buffer and interpolated between, whatever the odometry's
+/// rate. Bounded slices: `begin`, then `step` until `ok`. Context: cycle only.
 class UndistorterCore {
  public:
   UndistorterCore(std::span<float> x_m, std::span<float> y_m) : x_m_(x_m), y_m_(y_m) {}
 
   /// Starts over with a sweep, which must stay valid until the last step.
-  /// `invalid_argument`: configuration, or stamps and offsets that disagree. `full`: more returns than storage.
+  /// `invalid_argument`: configuration, or stamps and offsets that disagree. `full`: more returns
+  /// than storage.
   Status begin(const UndistortConfig& config, const Sweep& sweep);
 
-  /// Handles at most `max_returns` more returns. `ok`: the whole sweep is done and `result()` is valid until the next `begin`.
-  /// `not_ready`: call again: either slices are left, or the poses do not cover the sweep's end or the reference yet (nothing
-  /// was changed then). `out_of_range`: the sweep begins before the oldest pose; it cannot be undistorted, drop it.
-  /// Cost: O(max_returns), one sin_cos a return and one pose interpolation a segment.
+  /// Handles at most `max_returns` more returns. `ok`: the whole sweep is done and `result()` is
+  /// valid until the next `begin`. `not_ready`: call again: either slices are left, or the poses do
+  /// not cover the sweep's end or the reference yet (nothing was changed then). `out_of_range`: the
+  /// sweep begins before the oldest pose; it cannot be undistorted, drop it. Cost: O(max_returns),
+  /// one sin_cos a return and one pose interpolation a segment.
   Status step(const PoseBufferCore& poses, std::size_t max_returns);
 
   [[nodiscard]] const UndistortedSweep& result() const { return result_; }
@@ -84,7 +87,8 @@ class UndistorterCore {
   Sweep sweep_{};
   UndistortedSweep result_{};
   Pose2d reference_T_odom_{};
-  // The current segment: B_T_lidar at both ends, and the ends in float seconds since the sweep's start.
+  // The current segment: B_T_lidar at both ends, and the ends in float seconds since the sweep's
+  // start.
   Timestamp segment_start_{};
   Timestamp segment_end_{};
   Pose2f segment_from_{};
@@ -108,8 +112,12 @@ class Undistorter {
   Undistorter& operator=(const Undistorter&) = delete;
   ~Undistorter() = default;
 
-  Status begin(const UndistortConfig& config, const Sweep& sweep) { return core_.begin(config, sweep); }
-  Status step(const PoseBufferCore& poses, std::size_t max_returns) { return core_.step(poses, max_returns); }
+  Status begin(const UndistortConfig& config, const Sweep& sweep) {
+    return core_.begin(config, sweep);
+  }
+  Status step(const PoseBufferCore& poses, std::size_t max_returns) {
+    return core_.step(poses, max_returns);
+  }
   [[nodiscard]] const UndistortedSweep& result() const { return core_.result(); }
   [[nodiscard]] bool busy() const { return core_.busy(); }
 

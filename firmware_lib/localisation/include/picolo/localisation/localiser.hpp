@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The heart: prediction, match, acceptance, map update.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "picolo/core/status.hpp"
+#include "picolo/geometry/pose2.hpp"
+#include "picolo/localisation/profile.hpp"
+#include "picolo/map/rolling_map.hpp"
+#include "picolo/matching/gauss_newton.hpp"
+#include "picolo/undistort/undistorter.hpp"
+
+namespace picolo::inline v0 {
+
+/// How far the prediction may be off: sigma_t^2 = base^2 + (per_m d)^2 + (per_rad dtheta)^2 over
+/// the motion since the last match, the same for the rotation. Without odometry the two `blind`
+/// values hold about the last pose.
+struct PredictionNoise {
+  float translation_base_m = 0.03F;
+  float translation_per_m = 0.10F;
+  float translation_per_rad_m = 0.06F;
+  float rotation_base_rad = 0.02F;
+  float rotation_per_m_rad = 0.08F;
+  float rotation_per_rad = 0.15F;
+  float blind_translation_m = 0.12F;
+  float blind_rotation_rad = 0.12F;
+  float weight = 0.3F;  ///< of the odometry term against the scan
+};
+
+struct LocaliserConfig {
+  MapConfig map{};  ///< of the fine grid; cell size and field radius come from the profile
+  GaussNewtonConfig coarse{.max_iterations = 5, .converged_m = 0.01F, .converged_rad = 2e-3F};
+  GaussNewtonConfig fine{};
+  bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
+  PredictionNoise noise{};
+  float min_inlier_share =
+      0.30F;  ///< a match with fewer points near known obstacles may not move the pose nor the map
+  float insert_every_m =
+      0.0F;  ///< a scan enters the map only after this much motion since the last that did, ...
+  float insert_every_rad = 0.0F;  ///< ... or this much turn
+  int ray_stop_cells = 2;         ///< rays clear cells up to this many short of their end
+  float max_insert_range_m = 30.0F;
+  int max_repair_tiles = 8;  ///< of the field, in one map step
+  [[nodiscard]] constexpr bool valid() const {
+    return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
+           min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
+           ray_stop_cells >= 0 && noise.weight >= 0.0F && max_insert_range_m > 0.0F &&
+           max_repair_tiles > 0;
+  }
+};
+
+struct LocaliserCounters {
+  std::uint32_t sweeps = 0;
+  std::uint32_t matched = 0;  ///< accepted, the first sweep not counted
+  std::uint32_t rejected = 0;
+  std::uint32_t inserted = 0;                   ///< sweeps that entered the map
+  std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
+};
+
+/// Where the localiser stands with the current sweep.
+enum class LocaliserPhase : std::uint8_t { idle, matching, mapping };
+
+/// Matches undistorted sweeps against the map that it builds. Work comes in bounded slices:
+/// `begin`, `match_step` until it returns true (then map_T_odom is corrected), `map_step` until it
+/// returns true (then the next sweep may begin); `process` is that loop. Context: cycle only. The
+/// points of the sweep must stay valid until the last slice.
+class LocaliserCore {
+ public:
+  LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine, RollingMapCore& coarse);
+
+  /// Where the vehicle stands at the first sweep; afterwards a jump of the pose (the map is kept).
+  void set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base);
+
+  /// `odometry_valid`: sweep.odom_T_base is real; otherwise the pose is predicted to stand still.
+  /// `invalid_argument`: configuration, or a sweep is still being worked on.
+  Status begin(const UndistortedSweep& sweep, bool odometry_valid);
+  /// One Gauss-Newton iteration. True when the match is over.
+  bool match_step();
+  /// Up to `max_rays` beams into the map, then repairs of the field. True when the sweep is done.
+  bool map_step(std::size_t max_rays);
+  /// All slices at once, for host users.
+  Status process(const UndistortedSweep& sweep, bool odometry_valid);
+
+  [[nodiscard]] LocaliserPhase phase() const { return phase_; }
+  /// Of the last sweep whose match is over.
+  [[nodiscard]] const MatchReport& report() const { return report_; }
+  [[nodiscard]] bool accepted() const { return accepted_; }
+  /// map_T_base at the reference instant of the last sweep whose match is over.
+  [[nodiscard]] const Pose2d& map_T_base() const { return map_T_base_; }
+  [[nodiscard]] Timestamp reference() const { return reference_; }
+  [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
+  /// By how much the last accepted match moved the prediction, in base.
+  [[nodiscard]] const Pose2f& last_correction() const { return last_correction_; }
+  [[nodiscard]] const LocaliserCounters& counters() const { return counters_; }
+  [[nodiscard]] const RollingMapCore& map() const { return fine_; }
+  [[nodiscard]] const LocaliserConfig& config() const { return config_; }
+
+ private:
+  void start_match(const Pose2d& prediction, bool odometry_valid);
+  [[nodiscard]] PosePrior prior_at(const GridWindow& window, const Pose2d& prediction,
+                                   bool odometry_valid) const;
+  void conclude();
+  void start_map_update();
+  void add_points(std::size_t max_points, bool hits);
+
+  LocaliserConfig config_;
+  RollingMapCore& fine_;
+  RollingMapCore& coarse_;
+  GaussNewtonMatcher<DistanceFieldView> coarse_matcher_;
+  GaussNewtonMatcher<DistanceFieldView> fine_matcher_;
+  UndistortedSweep sweep_{};
+  MatchRequest request_{};
+  MatchReport report_{};
+  LocaliserPhase phase_ = LocaliserPhase::idle;
+  Pose2d prediction_{};
+  Pose2d map_T_base_{};
+  Pose2d map_T_odom_{};
+  Pose2d last_odom_T_base_{};
+  Pose2d last_inserted_{};
+  Pose2f last_correction_{};
+  Timestamp reference_{};
+  bool started_ = false;
+  bool on_coarse_ = false;
+  bool accepted_ = false;
+  bool adding_hits_ = false;
+  std::size_t next_point_ = 0;
+  LocaliserCounters counters_{};
+};
+
+/// The map configuration of a profile, other fields from `base`.
+template <Profile P>
+[[nodiscard]] constexpr MapConfig fine_map_config(MapConfig base) {
+  base.cell_m = P::kCell_m;
+  base.field_radius_cells = P::kFieldRadius;
+  return base;
+}
+[[nodiscard]] MapConfig coarse_map_config(const MapConfig& fine);
+
+/// Maps and localiser of a profile.
+template <Profile P>
+class Localiser {
+ public:
+  explicit Localiser(const LocaliserConfig& config = {})
+      : fine_(fine_map_config<P>(config.map)),
+        coarse_(coarse_map_config(fine_map_config<P>(config.map))),
+        core_(config, fine_.core(), coarse_.core()) {}
+  Localiser(const Localiser&) = delete;
+  Localiser& operator=(const Localiser&) = delete;
+  ~Localiser() = default;
+
+  [[nodiscard]] LocaliserCore& core() { return core_; }
+  [[nodiscard]] const LocaliserCore& core() const { return core_; }
+
+ private:
+  RollingMap<P::kWidth, P::kHeight> fine_;
+  RollingMap<P::kWidth / kCoarseFactor, P::kHeight / kCoarseFactor> coarse_;
+  LocaliserCore core_;
+};
+
+}  // namespace picolo::inline v0

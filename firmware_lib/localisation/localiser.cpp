@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/localisation/localiser.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/math.hpp"
+#include "picolo/core/number_model.hpp"
+#include "picolo/geometry/angle.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+constexpr std::size_t kPointsPerInsertStep = 4096;  // of `process`; any number gives the same map
+
+float square(float x) {
+  return x * x;
+}
+
+bool usable(MatchOutcome outcome) {
+  return outcome == MatchOutcome::converged || outcome == MatchOutcome::iteration_limit ||
+         outcome == MatchOutcome::degenerate;
+}
+
+}  // namespace
+
+MapConfig coarse_map_config(const MapConfig& fine) {
+  MapConfig coarse = fine;
+  coarse.cell_m = fine.cell_m * static_cast<float>(kCoarseFactor);
+  coarse.field_radius_cells = std::max(2, fine.field_radius_cells / 2);
+  return coarse;
+}
+
+LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine,
+                             RollingMapCore& coarse)
+    : config_(config),
+      fine_(fine),
+      coarse_(coarse),
+      coarse_matcher_(config.coarse),
+      fine_matcher_(config.fine) {}
+
+void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base) {
+  map_T_base_ = map_T_base;
+  map_T_odom_ = map_T_base * inverse(odom_T_base);
+  last_odom_T_base_ = odom_T_base;
+}
+
+Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) {
+  if (!config_.valid() || phase_ != LocaliserPhase::idle) { return Status::invalid_argument; }
+  sweep_ = sweep;
+  ++counters_.sweeps;
+  // Kohlbrecher's start: map_T_base(t-1) * odom_T_base(t-1)^-1 * odom_T_base(t).
+  prediction_ = odometry_valid ? map_T_odom_ * sweep.odom_T_base : map_T_base_;
+  if (!started_) {
+    started_ = true;
+    fine_.reset(prediction_.x_m, prediction_.y_m);
+    coarse_.reset(prediction_.x_m, prediction_.y_m);
+    report_ = {};
+    accepted_ = true;
+    last_correction_ = {};
+    map_T_base_ = prediction_;
+    reference_ = sweep_.reference;
+    last_odom_T_base_ = sweep_.odom_T_base;
+    start_map_update();
+    return Status::ok;
+  }
+  fine_.follow(prediction_.x_m, prediction_.y_m);
+  coarse_.follow(prediction_.x_m, prediction_.y_m);
+  start_match(prediction_, odometry_valid);
+  return Status::ok;
+}
+
+PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& prediction,
+                                  bool odometry_valid) const {
+  const PredictionNoise& noise = config_.noise;
+  const Pose2f moved = to_f32(between(last_odom_T_base_, sweep_.odom_T_base));
+  const float squared_distance = square(moved.x_m) + square(moved.y_m);
+  const float squared_turn = square(moved.theta_rad);
+  float translation_variance = square(noise.blind_translation_m);
+  float rotation_variance = square(noise.blind_rotation_rad);
+  if (odometry_valid) {
+    translation_variance = square(noise.translation_base_m) +
+                           square(noise.translation_per_m) * squared_distance +
+                           square(noise.translation_per_rad_m) * squared_turn;
+    rotation_variance = square(noise.rotation_base_rad) +
+                        square(noise.rotation_per_m_rad) * squared_distance +
+                        square(noise.rotation_per_rad) * squared_turn;
+  }
+  const float along = noise.weight / translation_variance;
+  return {to_window(window, prediction),
+          Matrix3f::diagonal(along, along, noise.weight / rotation_variance)};
+}
+
+void LocaliserCore::start_match(const Pose2d& prediction, bool odometry_valid) {
+  phase_ = LocaliserPhase::matching;
+  on_coarse_ = config_.use_coarse;
+  request_.points = sweep_.points;
+  const GridWindow& window = on_coarse_ ? coarse_.window() : fine_.window();
+  request_.prior = prior_at(fine_.window(), prediction, odometry_valid);
+  request_.start = to_window(window, prediction);
+  if (!on_coarse_) {
+    fine_matcher_.begin(fine_.field(), request_);
+    return;
+  }
+  MatchRequest coarse = request_;
+  coarse.prior.pose = request_.start;
+  coarse_matcher_.begin(coarse_.field(), coarse);
+}
+
+bool LocaliserCore::match_step() {
+  if (phase_ != LocaliserPhase::matching) { return true; }
+  if (on_coarse_) {
+    if (!coarse_matcher_.step()) { return false; }
+    const Pose2d coarse_pose = to_map(coarse_.window(), coarse_matcher_.report().pose);
+    on_coarse_ = false;
+    request_.start = to_window(fine_.window(), coarse_pose);
+    fine_matcher_.begin(fine_.field(), request_);
+    return false;
+  }
+  if (!fine_matcher_.step()) { return false; }
+  conclude();
+  return true;
+}
+
+void LocaliserCore::conclude() {
+  report_ = fine_matcher_.report();
+  ++counters_.outcomes[static_cast<std::size_t>(report_.outcome)];
+  accepted_ = usable(report_.outcome) && report_.inlier_share >= config_.min_inlier_share;
+  reference_ = sweep_.reference;
+  if (!accepted_) {
+    ++counters_.rejected;
+    map_T_base_ = prediction_;
+    phase_ = LocaliserPhase::idle;
+    return;
+  }
+  ++counters_.matched;
+  map_T_base_ = to_map(fine_.window(), report_.pose);
+  last_correction_ = to_f32(between(prediction_, map_T_base_));
+  map_T_odom_ = map_T_base_ * inverse(sweep_.odom_T_base);
+  last_odom_T_base_ = sweep_.odom_T_base;
+  const Pose2d since = between(last_inserted_, map_T_base_);
+  const double turn = since.theta_rad < 0.0 ? -since.theta_rad : since.theta_rad;
+  if (hypotenuse(since.x_m, since.y_m) < static_cast<double>(config_.insert_every_m) &&
+      turn < static_cast<double>(config_.insert_every_rad)) {
+    phase_ = LocaliserPhase::idle;
+    return;
+  }
+  start_map_update();
+}
+
+void LocaliserCore::start_map_update() {
+  phase_ = LocaliserPhase::mapping;
+  last_inserted_ = map_T_base_;
+  fine_.begin_scan();
+  coarse_.begin_scan();
+  next_point_ = 0;
+  adding_hits_ = true;
+  ++counters_.inserted;
+}
+
+void LocaliserCore::add_points(std::size_t max_points, bool hits) {
+  const std::size_t end = std::min(sweep_.points.size(), next_point_ + max_points);
+  for (RollingMapCore* map : {&fine_, &coarse_}) {
+    const Pose2f window_T_base = to_window(map->window(), map_T_base_);
+    const SinCos<float> yaw = sin_cos(window_T_base.theta_rad);
+    const auto place = [&](Point2f p) {
+      return Point2f{window_T_base.x_m + (yaw.cosine * p.x_m - yaw.sine * p.y_m),
+                     window_T_base.y_m + (yaw.sine * p.x_m + yaw.cosine * p.y_m)};
+    };
+    const Point2f first = place(sweep_.lidar_at_first_m);
+    const Point2f last = place(sweep_.lidar_at_last_m);
+    const float per_point =
+        1.0F / static_cast<float>(std::max<std::size_t>(1, sweep_.points.size()));
+    const float limit = square(config_.max_insert_range_m);
+    for (std::size_t k = next_point_; k < end; ++k) {
+      const Point2f p{sweep_.points.x_m[k], sweep_.points.y_m[k]};
+      if (square(p.x_m) + square(p.y_m) > limit) { continue; }
+      if (hits) {
+        map->add_hit(place(p));
+        continue;
+      }
+      const float share = static_cast<float>(k) * per_point;
+      map->add_ray(
+          {first.x_m + share * (last.x_m - first.x_m), first.y_m + share * (last.y_m - first.y_m)},
+          place(p), map == &fine_ ? config_.ray_stop_cells : 1);
+    }
+  }
+  next_point_ = end;
+}
+
+bool LocaliserCore::map_step(std::size_t max_rays) {
+  if (phase_ != LocaliserPhase::mapping) { return true; }
+  if (next_point_ < sweep_.points.size()) {
+    add_points(max_rays, adding_hits_);
+    return false;
+  }
+  if (adding_hits_) {
+    adding_hits_ = false;
+    next_point_ = 0;
+    return false;
+  }
+  fine_.repair(config_.max_repair_tiles);
+  coarse_.repair(config_.max_repair_tiles);
+  if (fine_.stale_tiles() + coarse_.stale_tiles() > 0) { return false; }
+  phase_ = LocaliserPhase::idle;
+  return true;
+}
+
+Status LocaliserCore::process(const UndistortedSweep& sweep, bool odometry_valid) {
+  const Status status = begin(sweep, odometry_valid);
+  if (status != Status::ok) { return status; }
+  while (!match_step()) {}                    // at most the matchers' iteration limits
+  while (!map_step(kPointsPerInsertStep)) {}  // at most the points plus the stale tiles
+  return Status::ok;
+}
+
+}  // namespace picolo::inline v0

@@ -1,0 +1,241 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/map/rolling_map.hpp"
+
+#include <algorithm>
+
+#include "grid_shift.hpp"
+#include "picolo/core/convert.hpp"
+#include "picolo/core/math.hpp"
+#include "picolo/core/number_model.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+constexpr std::uint8_t kFarAway = 255;
+constexpr int kCellLimit = 1 << 20;  // far beyond every window, small enough for int arithmetic
+
+/// Whole tiles between the window's centre and the cell, when that is more than a quarter of the
+/// window; otherwise 0.
+int tiles_to_move(int cell_from_corner, int size) {
+  const int from_centre = cell_from_corner - size / 2;
+  if (from_centre <= size / 4 && from_centre >= -size / 4) { return 0; }
+  return from_centre / kTileCells;
+}
+
+}  // namespace
+
+RollingMapCore::RollingMapCore(const MapConfig& config, int width, int height,
+                               const MapStorage& storage)
+    : config_(config), window_{width, height, config.cell_m, 0, 0}, storage_(storage) {
+  const int radius = config_.field_radius_cells;
+  field_reach_m_ = static_cast<float>(radius) * config_.cell_m;
+  cells_per_m_ = 1.0F / config_.cell_m;
+  for (int square = 0; square <= radius * radius; ++square) {
+    const float share = square_root(static_cast<float>(square)) / static_cast<float>(radius);
+    byte_of_square_[static_cast<std::size_t>(square)] =
+        static_cast<std::uint8_t>(round_to_i32(255.0F * share, 0, kFarAway));
+  }
+  reset(0.0, 0.0);
+}
+
+void RollingMapCore::reset(double centre_x_m, double centre_y_m) {
+  const auto cell = static_cast<double>(config_.cell_m);
+  window_.origin_x_cells =
+      floor_to_i32(centre_x_m / cell, -kCellLimit, kCellLimit) - window_.width / 2;
+  window_.origin_y_cells =
+      floor_to_i32(centre_y_m / cell, -kCellLimit, kCellLimit) - window_.height / 2;
+  std::fill(storage_.occupancy.begin(), storage_.occupancy.end(), std::int8_t{0});
+  std::fill(storage_.field.begin(), storage_.field.end(), kFarAway);
+  std::fill(storage_.changed.begin(), storage_.changed.end(), 0U);
+  std::fill(storage_.stale_tiles.begin(), storage_.stale_tiles.end(), std::uint8_t{0});
+  stale_count_ = 0;
+  next_tile_ = 0;
+}
+
+bool RollingMapCore::follow(double x_m, double y_m) {
+  const auto cell = static_cast<double>(config_.cell_m);
+  const int dx = tiles_to_move(
+      floor_to_i32(x_m / cell, -kCellLimit, kCellLimit) - window_.origin_x_cells, window_.width);
+  const int dy = tiles_to_move(
+      floor_to_i32(y_m / cell, -kCellLimit, kCellLimit) - window_.origin_y_cells, window_.height);
+  if (dx == 0 && dy == 0) { return false; }
+  shift_grid(storage_.occupancy, window_.width, window_.height, dx * kTileCells, dy * kTileCells,
+             std::int8_t{0});
+  shift_grid(storage_.field, window_.width, window_.height, dx * kTileCells, dy * kTileCells,
+             kFarAway);
+  shift_grid(storage_.stale_tiles, window_.width / kTileCells, window_.height / kTileCells, dx, dy,
+             std::uint8_t{0});
+  stale_count_ =
+      static_cast<int>(std::count(storage_.stale_tiles.begin(), storage_.stale_tiles.end(), 1));
+  window_.origin_x_cells += dx * kTileCells;
+  window_.origin_y_cells += dy * kTileCells;
+  return true;
+}
+
+DistanceFieldView RollingMapCore::field() const {
+  return {storage_.field.data(), window_.width, window_.height, cells_per_m_, field_reach_m_};
+}
+
+void RollingMapCore::begin_scan() {
+  std::fill(storage_.changed.begin(), storage_.changed.end(), 0U);
+}
+
+bool RollingMapCore::mark_changed(std::size_t index) {
+  std::uint32_t& word = storage_.changed[index / 32];
+  const std::uint32_t bit = 1U << (index % 32);
+  if ((word & bit) != 0) { return false; }
+  word |= bit;
+  return true;
+}
+
+void RollingMapCore::change(int column, int row, int delta) {
+  const std::size_t index =
+      static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.width) +
+      static_cast<std::size_t>(column);
+  if (!mark_changed(index)) { return; }
+  std::int8_t& cell = storage_.occupancy[index];
+  const bool was_occupied = cell >= config_.occupied_from;
+  cell = static_cast<std::int8_t>(
+      std::clamp(cell + delta, static_cast<int>(config_.low), static_cast<int>(config_.high)));
+  const bool is_occupied = cell >= config_.occupied_from;
+  if (is_occupied && !was_occupied) { paint(column, row); }
+  if (was_occupied && !is_occupied) { mark_stale(column, row); }
+}
+
+void RollingMapCore::paint(int column, int row) {
+  const int radius = config_.field_radius_cells;
+  const int first_column = std::max(0, column - radius);
+  const int last_column = std::min(window_.width - 1, column + radius);
+  const int last_row = std::min(window_.height - 1, row + radius);
+  for (int y = std::max(0, row - radius); y <= last_row; ++y) {
+    std::uint8_t* const line =
+        storage_.field.data() + static_cast<std::ptrdiff_t>(y) * window_.width;
+    for (int x = first_column; x <= last_column; ++x) {
+      const int square =
+          std::min((x - column) * (x - column) + (y - row) * (y - row), radius * radius);
+      line[x] = std::min(line[x], byte_of_square_[static_cast<std::size_t>(square)]);
+    }
+  }
+}
+
+void RollingMapCore::mark_stale(int column, int row) {
+  const int radius = config_.field_radius_cells;
+  const int tiles_across = window_.width / kTileCells;
+  const int last_column = std::min(window_.width - 1, column + radius) / kTileCells;
+  const int last_row = std::min(window_.height - 1, row + radius) / kTileCells;
+  for (int y = std::max(0, row - radius) / kTileCells; y <= last_row; ++y) {
+    for (int x = std::max(0, column - radius) / kTileCells; x <= last_column; ++x) {
+      std::uint8_t& stale = storage_.stale_tiles[static_cast<std::size_t>(y * tiles_across + x)];
+      stale_count_ += 1 - stale;
+      stale = 1;
+    }
+  }
+}
+
+void RollingMapCore::add_hit(Point2f window_p) {
+  const int column = floor_to_i32(window_p.x_m * cells_per_m_, -kCellLimit, kCellLimit);
+  const int row = floor_to_i32(window_p.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  if (column < 0 || row < 0 || column >= window_.width || row >= window_.height) { return; }
+  change(column, row, config_.hit);
+}
+
+void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_cells) {
+  int column = floor_to_i32(window_lidar.x_m * cells_per_m_, -kCellLimit, kCellLimit);
+  int row = floor_to_i32(window_lidar.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  const int to_column = floor_to_i32(window_p.x_m * cells_per_m_, -kCellLimit, kCellLimit);
+  const int to_row = floor_to_i32(window_p.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  // Bresenham's line, all octants; it ends at the window's edge, since the lidar stands inside.
+  const int dx = to_column > column ? to_column - column : column - to_column;
+  const int dy = to_row > row ? to_row - row : row - to_row;
+  const int step_x = to_column > column ? 1 : -1;
+  const int step_y = to_row > row ? 1 : -1;
+  const int steps = std::max(dx, dy) - stop_cells;
+  int error = dx - dy;
+  for (int i = 0; i < steps; ++i) {
+    if (column < 0 || row < 0 || column >= window_.width || row >= window_.height) { return; }
+    change(column, row, config_.miss);
+    const int twice = 2 * error;
+    if (twice > -dy) {
+      error -= dy;
+      column += step_x;
+    }
+    if (twice < dx) {
+      error += dx;
+      row += step_y;
+    }
+  }
+}
+
+int RollingMapCore::repair(int max_tiles) {
+  const std::size_t tiles = storage_.stale_tiles.size();
+  const int tiles_across = window_.width / kTileCells;
+  int done = 0;
+  for (std::size_t looked_at = 0; looked_at < tiles && stale_count_ > 0 && done < max_tiles;
+       ++looked_at) {
+    const std::size_t tile = next_tile_;
+    next_tile_ = next_tile_ + 1 == tiles ? 0 : next_tile_ + 1;
+    if (storage_.stale_tiles[tile] == 0) { continue; }
+    storage_.stale_tiles[tile] = 0;
+    --stale_count_;
+    ++done;
+    recompute_tile(static_cast<int>(tile) % tiles_across, static_cast<int>(tile) / tiles_across);
+  }
+  return done;
+}
+
+// Exact truncated distance transform of one tile in two passes (Felzenszwalb and Huttenlocher 2012,
+// brute force over the radius): down the columns the nearest obstacle above and below, then along
+// the rows the least sum of squares.
+void RollingMapCore::recompute_tile(int tile_column, int tile_row) {
+  constexpr int kColumns = kTileCells + 2 * kMaxFieldRadius;
+  const int radius = config_.field_radius_cells;
+  const int x0 = tile_column * kTileCells;
+  const int y0 = tile_row * kTileCells;
+  std::array<std::array<std::uint8_t, kColumns>, kTileCells> vertical{};
+
+  for (int i = 0; i < kTileCells + 2 * radius; ++i) {
+    const int x = x0 - radius + i;
+    const bool exists = x >= 0 && x < window_.width;
+    const auto occupied = [&](int y) {
+      return exists && y >= 0 && y < window_.height &&
+             storage_.occupancy[static_cast<std::size_t>(y) *
+                                    static_cast<std::size_t>(window_.width) +
+                                static_cast<std::size_t>(x)] >= config_.occupied_from;
+    };
+    int since = radius;
+    for (int y = y0 - radius; y < y0 + kTileCells; ++y) {
+      since = occupied(y) ? 0 : std::min(since + 1, radius);
+      if (y >= y0) {
+        vertical[static_cast<std::size_t>(y - y0)][static_cast<std::size_t>(i)] =
+            static_cast<std::uint8_t>(since);
+      }
+    }
+    since = radius;
+    for (int y = y0 + kTileCells - 1 + radius; y >= y0; --y) {
+      since = occupied(y) ? 0 : std::min(since + 1, radius);
+      if (y < y0 + kTileCells) {
+        std::uint8_t& nearest =
+            vertical[static_cast<std::size_t>(y - y0)][static_cast<std::size_t>(i)];
+        nearest = std::min(nearest, static_cast<std::uint8_t>(since));
+      }
+    }
+  }
+
+  for (int y = 0; y < kTileCells; ++y) {
+    const auto& line = vertical[static_cast<std::size_t>(y)];
+    for (int x = 0; x < kTileCells; ++x) {
+      int square = radius * radius;
+      for (int dx = -radius; dx <= radius; ++dx) {
+        const int down = line[static_cast<std::size_t>(x + radius + dx)];
+        if (down < radius) { square = std::min(square, dx * dx + down * down); }
+      }
+      storage_.field[static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(window_.width) +
+                     static_cast<std::size_t>(x0 + x)] =
+          byte_of_square_[static_cast<std::size_t>(square)];
+    }
+  }
+}
+
+}  // namespace picolo::inline v0

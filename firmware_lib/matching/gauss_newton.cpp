@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/matching/gauss_newton.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/convert.hpp"
+#include "picolo/core/math.hpp"
+#include "picolo/core/number_model.hpp"
+#include "picolo/geometry/angle.hpp"
+#include "picolo/matching/field_sums.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+constexpr float kUnknownVariance = 1e3F;
+
+template <typename Field>
+FieldSums sums_at(const Field& field, const GaussNewtonConfig& config, const MatchRequest& request,
+                  const Pose2f& pose) {
+  const SinCos<float> yaw = sin_cos(pose.theta_rad);
+  const float kernel = config.kernel_m / field.reach_m;
+  return walk_field(
+      field,
+      FieldWalk{.x_m = pose.x_m,
+                .y_m = pose.y_m,
+                .sine = yaw.sine,
+                .cosine = yaw.cosine,
+                .inverse_kernel_squared = kernel > 0.0F ? 1.0F / (kernel * kernel) : 0.0F,
+                .inlier_residual = config.inlier_m / field.reach_m},
+      request.points);
+}
+
+/// From unit-free sums to an information: residuals in metres over sigma, at most
+/// `effective_points` independent ones.
+NormalEquations3 scaled_system(const FieldSums& sums, const GaussNewtonConfig& config,
+                               float reach_m) {
+  const float per_residual = (reach_m / config.sigma_m) * (reach_m / config.sigma_m);
+  const float s = per_residual * std::min(1.0F, config.effective_points / sums.inside);
+  return {{{s * sums.xx, s * sums.xy, s * sums.xt, s * sums.xy, s * sums.yy, s * sums.yt,
+            s * sums.xt, s * sums.yt, s * sums.tt}},
+          {s * sums.bx, s * sums.by, s * sums.bt}};
+}
+
+void add_prior(const PosePrior& prior, const Pose2f& pose, NormalEquations3& system) {
+  const std::array<float, 3> error{prior.pose.x_m - pose.x_m, prior.pose.y_m - pose.y_m,
+                                   wrap_angle(prior.pose.theta_rad - pose.theta_rad)};
+  system.h = sum(system.h, prior.information);
+  for (std::size_t row = 0; row < 3; ++row) {
+    system.b[row] += (prior.information(row, 0) * error[0] + prior.information(row, 1) * error[1]) +
+                     prior.information(row, 2) * error[2];
+  }
+}
+
+/// Shortens a step that is too long in translation or rotation; one factor for all, so that its
+/// direction stays.
+void limit_step(const GaussNewtonConfig& config, std::array<float, 3>& step) {
+  const float length_m = hypotenuse(step[0], step[1]);
+  const float turn_rad = step[2] < 0.0F ? -step[2] : step[2];
+  float factor = 1.0F;
+  if (length_m > config.max_step_m) { factor = config.max_step_m / length_m; }
+  if (turn_rad * factor > config.max_step_rad) { factor = config.max_step_rad / turn_rad; }
+  for (float& component : step) { component *= factor; }
+}
+
+bool is_prior(const PosePrior& prior) {
+  return prior.information != Matrix3f{};
+}
+
+}  // namespace
+
+template <LikelihoodField Field>
+void GaussNewtonMatcher<Field>::begin(const Field& field, const MatchRequest& request) {
+  field_ = field;
+  request_ = request;
+  report_ = {};
+  report_.pose = request.start;
+  report_.covariance = Matrix3f::diagonal(kUnknownVariance, kUnknownVariance, kUnknownVariance);
+  done_ = false;
+  if (request.points.size() < static_cast<std::size_t>(config_.min_points)) {
+    finish(MatchOutcome::too_few_points);
+  }
+}
+
+template <LikelihoodField Field>
+bool GaussNewtonMatcher<Field>::finish(MatchOutcome outcome) {
+  report_.outcome = outcome;
+  done_ = true;
+  if (outcome != MatchOutcome::converged && outcome != MatchOutcome::iteration_limit &&
+      outcome != MatchOutcome::degenerate) {
+    report_.pose = request_.start;
+  }
+  return true;
+}
+
+template <LikelihoodField Field>
+bool GaussNewtonMatcher<Field>::enough_points(int inside) {
+  const auto all = static_cast<float>(request_.points.size());
+  return inside >= config_.min_points &&
+         static_cast<float>(inside) >= config_.min_share_in_map * all;
+}
+
+template <LikelihoodField Field>
+bool GaussNewtonMatcher<Field>::step() {
+  if (done_) { return true; }
+  const FieldSums sums = sums_at(field_, config_, request_, report_.pose);
+  report_.points = round_to_i32(sums.inside, 0, 1 << 24);
+  if (!enough_points(report_.points)) { return finish(MatchOutcome::out_of_map); }
+  report_.mean_residual_m = field_.reach_m * sums.residual / sums.inside;
+  report_.inlier_share = sums.inliers / static_cast<float>(request_.points.size());
+  length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
+
+  NormalEquations3 system = scaled_system(sums, config_, field_.reach_m);
+  report_.scan_information = system.h;
+  const Conditioning conditioning = conditioning_of(system.h, length_m_);
+  report_.condition = conditioning.condition;
+  const bool degenerate = !(conditioning.condition <= config_.max_condition);
+  const bool with_prior = is_prior(request_.prior);
+  if (with_prior) { add_prior(request_.prior, report_.pose, system); }
+  report_.covariance = covariance_of(system.h, kUnknownVariance);
+
+  StepSolution solution =
+      degenerate && !with_prior
+          ? solve_constrained(system, conditioning, length_m_, config_.max_condition)
+          : solve(system);
+  if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
+  limit_step(config_, solution.step);
+  report_.pose = {report_.pose.x_m + solution.step[0], report_.pose.y_m + solution.step[1],
+                  wrap_angle(report_.pose.theta_rad + solution.step[2])};
+  ++report_.iterations;
+
+  const float moved_m =
+      hypotenuse(report_.pose.x_m - request_.start.x_m, report_.pose.y_m - request_.start.y_m);
+  const float turned_rad = wrap_angle(report_.pose.theta_rad - request_.start.theta_rad);
+  if (moved_m > config_.max_total_m || turned_rad > config_.max_total_rad ||
+      turned_rad < -config_.max_total_rad) {
+    return finish(MatchOutcome::step_limit);
+  }
+  const float turn_rad = solution.step[2] < 0.0F ? -solution.step[2] : solution.step[2];
+  if (hypotenuse(solution.step[0], solution.step[1]) < config_.converged_m &&
+      turn_rad < config_.converged_rad) {
+    return finish(degenerate ? MatchOutcome::degenerate : MatchOutcome::converged);
+  }
+  if (report_.iterations >= config_.max_iterations) {
+    return finish(degenerate ? MatchOutcome::degenerate : MatchOutcome::iteration_limit);
+  }
+  return false;
+}
+
+template <LikelihoodField Field>
+MatchReport GaussNewtonMatcher<Field>::match(const Field& field, const MatchRequest& request) {
+  begin(field, request);
+  while (!step()) {}  // at most max_iterations
+  return report_;
+}
+
+template class GaussNewtonMatcher<DistanceFieldView>;
+
+}  // namespace picolo::inline v0

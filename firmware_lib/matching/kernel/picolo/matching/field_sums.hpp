@@ -1,0 +1,118 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// One walk over the points: the weighted sums of Gauss-Newton on a likelihood field.
+///
+/// The order of summation is the contract: point k belongs to lane k mod 8, each lane sums its
+/// points in order, the lanes are folded by one fixed tree. A vector target walks 8 points at once,
+/// a scalar one may walk lane by lane: the bits are the same.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "picolo/map/bilinear.hpp"
+#include "picolo/undistort/undistorter.hpp"
+
+namespace picolo::inline v0 {
+
+struct FieldSums {
+  float xx = 0.0F, xy = 0.0F, xt = 0.0F, yy = 0.0F, yt = 0.0F, tt = 0.0F;  // sum w J'J
+  float bx = 0.0F, by = 0.0F, bt = 0.0F;                                   // sum w J'r
+  float residual = 0.0F;  // sum r over points inside
+  float inside = 0.0F;
+  float inliers = 0.0F;
+  float squared_radius = 0.0F;  // sum of |p - base|^2 over points inside
+};
+
+/// sine and cosine of the pose's yaw, hoisted.
+struct FieldWalk {
+  float x_m, y_m, sine, cosine;
+  float inverse_kernel_squared;  // of the unit-free residual; 0: no kernel
+  float inlier_residual;         // unit-free
+};
+
+inline constexpr std::size_t kLanes = 8;
+using Lanes = std::array<float, kLanes>;
+
+inline float fold(const Lanes& lanes) {
+  return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) +
+         ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
+}
+
+struct LaneSums {
+  Lanes xx{}, xy{}, xt{}, yy{}, yt{}, tt{}, bx{}, by{}, bt{}, residual{}, inside{}, inliers{},
+      squared_radius{};
+};
+
+template <typename Field>
+inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_m, const float* y_m,
+                      LaneSums& sums) {
+  Lanes value, slope_x, slope_y, inside, arm_x, arm_y;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    arm_x[l] = walk.cosine * x_m[l] - walk.sine * y_m[l];
+    arm_y[l] = walk.sine * x_m[l] + walk.cosine * y_m[l];
+    const FieldSample at = sample(field, arm_x[l] + walk.x_m, arm_y[l] + walk.y_m);
+    value[l] = at.value;
+    slope_x[l] = at.slope_x_per_m;
+    slope_y[l] = at.slope_y_per_m;
+    inside[l] = at.inside;
+  }
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    // dS/dtheta = (-sin x - cos y, cos x - sin y) = (-arm_y, arm_x)
+    const float slope_t = slope_y[l] * arm_x[l] - slope_x[l] * arm_y[l];
+    const float residual = inside[l] * (1.0F - value[l]);
+    const float weight = inside[l] / (1.0F + residual * residual * walk.inverse_kernel_squared);
+    const float wx = weight * slope_x[l];
+    const float wy = weight * slope_y[l];
+    const float wt = weight * slope_t;
+    sums.xx[l] += wx * slope_x[l];
+    sums.xy[l] += wx * slope_y[l];
+    sums.xt[l] += wx * slope_t;
+    sums.yy[l] += wy * slope_y[l];
+    sums.yt[l] += wy * slope_t;
+    sums.tt[l] += wt * slope_t;
+    sums.bx[l] += wx * residual;
+    sums.by[l] += wy * residual;
+    sums.bt[l] += wt * residual;
+    sums.residual[l] += residual;
+    sums.inside[l] += inside[l];
+    sums.inliers[l] += residual <= walk.inlier_residual ? inside[l] : 0.0F;
+    sums.squared_radius[l] += inside[l] * (arm_x[l] * arm_x[l] + arm_y[l] * arm_y[l]);
+  }
+}
+
+template <typename Field>
+inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const PointsView& points) {
+  LaneSums sums;
+  const std::size_t whole = points.size() - points.size() % kLanes;
+  for (std::size_t k = 0; k < whole; k += kLanes) {
+    add_lanes(field, walk, points.x_m.data() + k, points.y_m.data() + k, sums);
+  }
+  if (whole < points.size()) {
+    Lanes x_m,
+        y_m;  // what is missing from the last eight lies outside of every window and adds nothing
+    x_m.fill(1e9F);
+    y_m.fill(1e9F);
+    for (std::size_t k = whole; k < points.size(); ++k) {
+      x_m[k - whole] = points.x_m[k];
+      y_m[k - whole] = points.y_m[k];
+    }
+    add_lanes(field, walk, x_m.data(), y_m.data(), sums);
+  }
+  return {fold(sums.xx),
+          fold(sums.xy),
+          fold(sums.xt),
+          fold(sums.yy),
+          fold(sums.yt),
+          fold(sums.tt),
+          fold(sums.bx),
+          fold(sums.by),
+          fold(sums.bt),
+          fold(sums.residual),
+          fold(sums.inside),
+          fold(sums.inliers),
+          fold(sums.squared_radius)};
+}
+
+}  // namespace picolo::inline v0

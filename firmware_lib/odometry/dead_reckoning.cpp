@@ -1,0 +1,87 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/odometry/dead_reckoning.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/number_model.hpp"
+#include "picolo/geometry/angle.hpp"
+
+namespace picolo::inline v0 {
+
+DeadReckoning::DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}
+
+void DeadReckoning::learn_bias(double rate_radps) {
+  const auto limit = static_cast<double>(config_.max_bias_radps);
+  if (rate_radps > limit || rate_radps < -limit) { return; }
+  bias_count_ = std::min(bias_count_ + 1, config_.bias_samples);
+  bias_radps_ += (rate_radps - bias_radps_) / static_cast<double>(bias_count_);
+}
+
+void DeadReckoning::add(const ImuSample& sample) {
+  if (sample.saturated || (held_ > 0 && sample.stamp <= newest().stamp)) {
+    ++counters_.gyro_rejected;
+    return;
+  }
+  const double raw_radps = static_cast<double>(config_.gyro_sign * sample.rate_radps[2]);
+  if (standing_ && sample.stamp - standing_since_ >= config_.standstill) { learn_bias(raw_radps); }
+  GyroAngle next{.stamp = sample.stamp, .rate_radps = raw_radps - bias_radps_};
+  if (held_ > 0) {
+    const double interval_s = to_seconds_f64(sample.stamp - newest().stamp);
+    next.angle_rad =
+        newest().angle_rad + interval_s * (newest().rate_radps + next.rate_radps) / 2.0;
+  }
+  angles_[next_] = next;
+  next_ = (next_ + 1) % kAngles;
+  held_ = std::min(held_ + 1, kAngles);
+}
+
+Result<double> DeadReckoning::gyro_angle_at(Timestamp stamp) const {
+  if (held_ == 0) { return Status::not_ready; }
+  if (stamp > newest().stamp) {
+    if (stamp - newest().stamp > config_.gyro_hold) { return Status::not_ready; }
+    return newest().angle_rad + to_seconds_f64(stamp - newest().stamp) * newest().rate_radps;
+  }
+  for (std::size_t back = 1; back < held_; ++back) {
+    const GyroAngle& before = angles_[(next_ + 2 * kAngles - 1 - back) % kAngles];
+    const GyroAngle& after = angles_[(next_ + 2 * kAngles - back) % kAngles];
+    if (before.stamp > stamp) { continue; }
+    const double share =
+        to_seconds_f64(stamp - before.stamp) / to_seconds_f64(after.stamp - before.stamp);
+    return before.angle_rad + share * (after.angle_rad - before.angle_rad);
+  }
+  return Status::out_of_range;
+}
+
+void DeadReckoning::add(const WheelIncrement& increment) {
+  if (!increment.standing) { standing_ = false; }
+  if (increment.standing && !standing_) {
+    standing_ = true;
+    standing_since_ = increment.from;
+  }
+
+  Pose2d motion = increment.from_T_to;
+  const Result<double> angle =
+      config_.use_gyro ? gyro_angle_at(increment.to) : Result<double>{Status::not_ready};
+  if (angle && used_gyro_ && used_stamp_ == increment.from) {
+    // Same arc length, the gyro's turn: the chord of the wheels' arc is kept, its direction follows
+    // half of the turn.
+    const Tangent2<double> wheels = log_se2(increment.from_T_to);
+    motion = exp_se2(Tangent2<double>{wheels.x_m, wheels.y_m, *angle - used_angle_rad_});
+    ++counters_.with_gyro;
+  }
+  used_gyro_ = static_cast<bool>(angle);
+  used_angle_rad_ = angle.value_or(0.0);
+  used_stamp_ = increment.to;
+
+  pose_ = {increment.to, pose_.odom_T_base * motion};
+  const double interval_s = to_seconds_f64(increment.to - increment.from);
+  const Tangent2<double> velocity = log_se2(motion);
+  twist_ = {static_cast<float>(velocity.x_m / interval_s),
+            static_cast<float>(velocity.y_m / interval_s),
+            static_cast<float>(velocity.theta_rad / interval_s)};
+  ++counters_.increments;
+}
+
+}  // namespace picolo::inline v0

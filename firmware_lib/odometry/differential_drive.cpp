@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/odometry/differential_drive.hpp"
+
+#include <numbers>
+
+#include "picolo/core/number_model.hpp"
+
+namespace picolo::inline v0 {
+
+static_assert(WheelOdometry<DifferentialDrive>);
+
+DifferentialDrive::DifferentialDrive(const DifferentialDriveConfig& config) : config_(config) {}
+
+Result<WheelIncrement> DifferentialDrive::update(const WheelTicks& ticks) {
+  if (!has_last_ || ticks.restarted) {
+    last_ = ticks;
+    has_last_ = true;
+    return Status::not_ready;
+  }
+  if (ticks.stamp <= last_.stamp) { return Status::out_of_range; }
+  const std::int64_t left_counts = ticks.ticks[0] - last_.ticks[0];
+  const std::int64_t right_counts = ticks.ticks[1] - last_.ticks[1];
+  const double radians_per_count = 2.0 * std::numbers::pi / config_.counts_per_revolution;
+  const double left_m =
+      static_cast<double>(left_counts) * (radians_per_count * config_.left_radius_m);
+  const double right_m =
+      static_cast<double>(right_counts) * (radians_per_count * config_.right_radius_m);
+
+  WheelIncrement increment{.from = last_.stamp, .to = ticks.stamp};
+  increment.from_T_to = exp_se2(
+      Tangent2<double>{(left_m + right_m) / 2.0, 0.0, (right_m - left_m) / config_.track_m});
+  increment.standing = left_counts == 0 && right_counts == 0;
+  last_ = ticks;
+  return increment;
+}
+
+}  // namespace picolo::inline v0

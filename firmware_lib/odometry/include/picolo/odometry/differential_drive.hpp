@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Two driven wheels on one axle.
+#pragma once
+
+#include "picolo/odometry/wheel_odometry.hpp"
+
+namespace picolo::inline v0 {
+
+/// Base is the middle of the axle, x forward.
+struct DifferentialDriveConfig {
+  double left_radius_m = 0.1;
+  double right_radius_m = 0.1;
+  double track_m = 0.5;                   ///< distance of the wheels' contact points
+  double counts_per_revolution = 4096.0;  ///< of a wheel, gear included
+  [[nodiscard]] constexpr bool valid() const {
+    return left_radius_m > 0.0 && right_radius_m > 0.0 && track_m > 0.0 &&
+           counts_per_revolution > 0.0;
+  }
+};
+
+/// Exact for constant wheel speeds between samples: the arc is the exponential of (mean path, 0,
+/// difference / track). Cost: one sin_cos in double. Context: cycle only.
+class DifferentialDrive {
+ public:
+  explicit DifferentialDrive(const DifferentialDriveConfig& config = {});
+
+  Result<WheelIncrement> update(const WheelTicks& ticks);
+  [[nodiscard]] const DifferentialDriveConfig& config() const { return config_; }
+
+ private:
+  DifferentialDriveConfig config_;
+  WheelTicks last_{};
+  bool has_last_ = false;
+};
+
+}  // namespace picolo::inline v0

@@ -1,0 +1,31 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// From wheel counts to motion: the concept every wheel model satisfies.
+#pragma once
+
+#include <concepts>
+
+#include "picolo/core/result.hpp"
+#include "picolo/core/time.hpp"
+#include "picolo/geometry/pose2.hpp"
+#include "picolo/sensing/wheel_ticks.hpp"
+
+namespace picolo::inline v0 {
+
+/// Motion of base between two samples of the wheels.
+struct WheelIncrement {
+  Timestamp from{};
+  Timestamp to{};
+  Pose2d from_T_to{};     ///< base at `to` in base at `from`
+  bool standing = false;  ///< no wheel moved by a single count
+};
+
+/// `update` returns the motion since the previous sample; `not_ready` for the first sample and
+/// after a restart of the counters; `out_of_range` for a sample that is not newer (it is ignored).
+template <typename W>
+concept WheelOdometry = requires(W& wheels, const WheelTicks& ticks) {
+  { wheels.update(ticks) } -> std::same_as<Result<WheelIncrement>>;
+};
+
+}  // namespace picolo::inline v0

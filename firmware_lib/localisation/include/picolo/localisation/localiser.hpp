@@ -53,6 +53,8 @@ struct LocaliserConfig {
   }
 };
 
+static_assert(LocaliserConfig{}.valid());
+
 struct LocaliserCounters {
   std::uint32_t sweeps = 0;
   std::uint32_t matched = 0;  ///< accepted, the first sweep not counted

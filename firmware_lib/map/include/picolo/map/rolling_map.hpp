@@ -32,9 +32,10 @@ struct MapConfig {
   [[nodiscard]] constexpr bool valid() const {
     return cell_m > 0.0F && field_radius_cells >= 2 && field_radius_cells <= kMaxFieldRadius &&
            hit > 0 && miss < 0 && low < 0 && high > 0 && occupied_from > 0 &&
-           occupied_from <= high && high <= 127 - hit && low >= -127 - miss;
+           occupied_from <= high;
   }
 };
+static_assert(MapConfig{}.valid());
 
 /// Spans over the storage of a `RollingMap`.
 struct MapStorage {

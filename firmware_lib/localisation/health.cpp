@@ -1,0 +1,132 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/localisation/health.hpp"
+
+#include <algorithm>
+
+namespace picolo::inline v0 {
+
+const char* to_string(HealthState state) {
+  switch (state) {
+    case HealthState::initialising: return "initialising";
+    case HealthState::tracking: return "tracking";
+    case HealthState::degraded: return "degraded";
+    case HealthState::lost: return "lost";
+    case HealthState::fault: return "fault";
+  }
+  return "unknown";
+}
+
+const char* to_string(HealthReason reason) {
+  switch (reason) {
+    case HealthReason::none: return "none";
+    case HealthReason::starting: return "starting";
+    case HealthReason::lidar_silent: return "lidar_silent";
+    case HealthReason::wheels_silent: return "wheels_silent";
+    case HealthReason::gyro_silent: return "gyro_silent";
+    case HealthReason::match_rejected: return "match_rejected";
+    case HealthReason::direction_unobservable: return "direction_unobservable";
+    case HealthReason::too_few_points: return "too_few_points";
+    case HealthReason::out_of_map: return "out_of_map";
+    case HealthReason::relocalising: return "relocalising";
+    case HealthReason::configuration: return "configuration";
+    case HealthReason::overrun: return "overrun";
+  }
+  return "unknown";
+}
+
+// The first cause that holds is the reason, worst first.
+HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
+  if (inputs.overruns != overruns_) {
+    overruns_ = inputs.overruns;
+    last_overrun_ = inputs.now;
+    overrun_seen_ = true;
+  }
+  const bool lidar_silent = inputs.lidar_age > config_.max_lidar_age;
+  const bool wheels_silent = inputs.wheels_age > config_.max_wheels_age;
+  const bool blind = std::min(inputs.match_age, inputs.wheels_age) > config_.max_blind;
+  const bool vague = !(inputs.position_variance_m2 <= config_.max_position_variance_m2);
+  const bool overrun = overrun_seen_ && inputs.now - last_overrun_ <= config_.overrun_hold;
+
+  if (inputs.configuration_refused) { return {Level::broken, HealthReason::configuration}; }
+  if (inputs.cycle_fault) { return {Level::broken, HealthReason::overrun}; }
+  if (blind) {
+    return {Level::lost, lidar_silent ? HealthReason::lidar_silent : HealthReason::wheels_silent};
+  }
+  if (inputs.rejected_streak >= config_.lost_rejections) { return {Level::lost, inputs.rejection}; }
+  if (vague) {
+    return {Level::lost, lidar_silent ? HealthReason::lidar_silent : HealthReason::match_rejected};
+  }
+  if (lidar_silent) { return {Level::impaired, HealthReason::lidar_silent}; }
+  if (wheels_silent) { return {Level::impaired, HealthReason::wheels_silent}; }
+  if (inputs.rejected_streak >= config_.degraded_rejections) {
+    return {Level::impaired, inputs.rejection};
+  }
+  if (inputs.direction_unobservable) {
+    return {Level::impaired, HealthReason::direction_unobservable};
+  }
+  if (config_.expects_gyro && inputs.gyro_age > config_.max_gyro_age) {
+    return {Level::impaired, HealthReason::gyro_silent};
+  }
+  if (overrun) { return {Level::impaired, HealthReason::overrun}; }
+  return {};
+}
+
+HealthTransition HealthMonitor::update(const HealthInputs& inputs) {
+  const Finding finding = assess(inputs);
+  const bool clear = finding.level == Level::clear;
+  if (clear && !was_clear_) { clear_since_ = inputs.now; }
+  was_clear_ = clear;
+
+  HealthTransition transition{.from = state_};
+  const HealthReason reason_before = reason_;
+  advance(inputs, finding);
+  transition.to = state_;
+  transition.reason = reason_;
+  transition.state_changed = transition.from != transition.to;
+  transition.reason_changed = reason_before != reason_;
+  return transition;
+}
+
+void HealthMonitor::enter(HealthState state, HealthReason reason) {
+  state_ = state;
+  reason_ = reason;
+}
+
+void HealthMonitor::advance(const HealthInputs& inputs, const Finding& finding) {
+  if (state_ == HealthState::fault) { return; }
+  if (finding.level == Level::broken) { return enter(HealthState::fault, finding.reason); }
+  const bool clear = finding.level == Level::clear;
+  switch (state_) {
+    case HealthState::initialising:
+      if (finding.level == Level::lost || inputs.accepted_streak < config_.initial_matches) {
+        return enter(state_, clear ? HealthReason::starting : finding.reason);
+      }
+      return clear ? enter(HealthState::tracking, HealthReason::none)
+                   : enter(HealthState::degraded, finding.reason);
+    case HealthState::tracking:
+    case HealthState::degraded:
+      if (finding.level == Level::lost) { return enter(HealthState::lost, finding.reason); }
+      if (!clear) { return enter(HealthState::degraded, finding.reason); }
+      if (inputs.accepted_streak >= config_.recover_matches &&
+          inputs.now - clear_since_ >= config_.recover_after) {
+        return enter(HealthState::tracking, HealthReason::none);
+      }
+      return;  // the cause is gone, but not for long enough
+    case HealthState::lost:
+      if (finding.level != Level::lost && inputs.accepted_streak >= config_.relocalised_matches) {
+        return enter(HealthState::degraded, clear ? HealthReason::relocalising : finding.reason);
+      }
+      if (inputs.relocalising) { return enter(state_, HealthReason::relocalising); }
+      return enter(state_, finding.level == Level::lost ? finding.reason : reason_);
+    case HealthState::fault: return;
+  }
+}
+
+void HealthMonitor::reset() {
+  enter(HealthState::initialising, HealthReason::starting);
+  was_clear_ = false;
+}
+
+}  // namespace picolo::inline v0

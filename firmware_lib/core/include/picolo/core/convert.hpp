@@ -9,7 +9,8 @@
 
 namespace picolo::inline v0 {
 
-/// Nearest integer, halves away from zero, clamped to [low, high]; NaN gives `low`. Cost: O(1).
+/// Nearest integer, halves away from zero, clamped to [low, high]; NaN gives `low`.
+/// Cost: O(1).
 /// Context: any.
 [[nodiscard]] std::int32_t round_to_i32(float value, std::int32_t low, std::int32_t high);
 [[nodiscard]] std::int64_t round_to_i64(double value, std::int64_t low, std::int64_t high);

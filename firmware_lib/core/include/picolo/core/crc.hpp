@@ -11,7 +11,8 @@
 namespace picolo::inline v0 {
 
 /// CRC-8, most significant bit first, no reflection, no final exclusive-or. LD06: polynomial 0x4D,
-/// start 0. Cost: O(bytes). Context: any.
+/// start 0.
+/// Cost: O(bytes). Context: any.
 [[nodiscard]] std::uint8_t crc8(std::span<const std::uint8_t> bytes, std::uint8_t polynomial,
                                 std::uint8_t start = 0);
 /// CRC-16-CCITT: polynomial 0x1021, most significant bit first. VectorNav: start 0.

@@ -10,7 +10,8 @@
 namespace picolo::inline v0 {
 
 /// 64-bit FNV-1a. Floating-point values enter as canonical words: -0 as +0; a NaN sets
-/// `poisoned()`. Cost: O(bytes). Context: any.
+/// `poisoned()`.
+/// Cost: O(bytes). Context: any.
 class Hash {
  public:
   void add(std::uint32_t word);

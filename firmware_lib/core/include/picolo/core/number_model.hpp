@@ -10,8 +10,7 @@
 #include <limits>
 
 #ifdef __FAST_MATH__
-#error \
-    "picolo: -ffast-math reorders arithmetic; the same log would no longer give the same bits. Remove the flag."
+#error "picolo: -ffast-math breaks the promise of equal bits everywhere; remove the flag"
 #endif
 
 static_assert(FLT_EVAL_METHOD == 0,

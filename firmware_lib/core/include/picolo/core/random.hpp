@@ -9,7 +9,8 @@
 namespace picolo::inline v0 {
 
 /// PCG32 (O'Neill 2014): 64-bit state, 32-bit output. The same seed gives the same numbers on every
-/// platform. Cost: O(1); `gaussian` about 4 rounds at worst 32. Context: one at a time.
+/// platform.
+/// Cost: O(1); `gaussian` about 4 rounds at worst 32. Context: one at a time.
 class Random {
  public:
   explicit Random(std::uint64_t seed, std::uint64_t stream = 1);

@@ -17,12 +17,11 @@ class [[nodiscard]] Result {
   static_assert(std::is_trivially_copyable_v<T> && std::is_default_constructible_v<T>);
 
  public:
-  constexpr Result(const T& value) : value_(value) {}  // NOLINT(google-explicit-constructor)
-  constexpr Result(Status status) : status_(status) {  // NOLINT(google-explicit-constructor)
-    if (status == Status::ok) {
-      status_ = Status::invalid_argument;
-    }  // ok without a value is a bug
-  }
+  // Both implicit, so that a function returns a value or a status as it is.
+  constexpr Result(const T& value) : value_(value) {}
+  /// `Status::ok` without a value is a bug of the caller and becomes `invalid_argument`.
+  constexpr Result(Status status)
+      : status_(status == Status::ok ? Status::invalid_argument : status) {}
 
   [[nodiscard]] constexpr explicit operator bool() const { return status_ == Status::ok; }
   [[nodiscard]] constexpr Status status() const { return status_; }

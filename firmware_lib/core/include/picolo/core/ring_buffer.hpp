@@ -58,8 +58,9 @@ class SpscRing {
 /// One writer publishes, any number of readers of any priority copy the newest complete value.
 /// Four slots, each an array of relaxed atomic words, and one sequence number: a reader starts over
 /// only when the writer published three more values during its copy, and gives up after `kAttempts`
-/// (`read` then returns false), so that it is bounded however badly it is preempted. Cost:
-/// O(sizeof(T)), wait-free on both sides. Context: `publish` from one context, `read` from any.
+/// (`read` then returns false), so that it is bounded however badly it is preempted.
+/// Cost: O(sizeof(T)), wait-free on both sides.
+/// Context: `publish` from one context, `read` from any.
 template <typename T>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);

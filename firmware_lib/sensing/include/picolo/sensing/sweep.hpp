@@ -42,7 +42,8 @@ struct SweepAssemblerConfig {
 };
 
 /// The logic behind `SweepAssembler`, over storage it does not own: two buffers, one filling, one
-/// complete. Cost: `add` O(1). Context: cycle only.
+/// complete.
+/// Cost: `add` O(1). Context: cycle only.
 class SweepAssemblerCore {
  public:
   SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,

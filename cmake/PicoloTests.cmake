@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: picolo contributors
 # SPDX-License-Identifier: Apache-2.0
 # picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [TIMEOUT s]): all *.cpp of the calling folder form one
-# Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels.
+# Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels. The first label is
+# the group: unit, property, drivers, ports, integration ...; `slow` and `fuzz` beside it keep a test out of the short run.
 # PICOLO_TEST_DATA is where recordings are looked for; tests that need one call require_data() of tests/support.
 include(GoogleTest)
 
@@ -11,6 +12,11 @@ function(picolo_test name)
   cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;DEFINITIONS" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
+  endif()
+  # Every test's name starts with its group, the first label: the report of `./run test` counts by it.
+  list(GET ARG_LABELS 0 group)
+  if(NOT name MATCHES "^${group}(_|$)")
+    set(name ${group}_${name})
   endif()
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(test_${name} ${sources})

@@ -20,6 +20,12 @@ constexpr int kSamples = 200000;
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 
+/// A value in higher precision, to measure errors in.
+template <typename T>
+long double exact(T value) {
+  return static_cast<long double>(value);
+}
+
 TEST(Math, SinCosStaysWithinItsStatedError) {
   Random random{1};
   long double worst_f32 = 0;
@@ -27,12 +33,12 @@ TEST(Math, SinCosStaysWithinItsStatedError) {
   for (int i = 0; i < kSamples; ++i) {
     const auto single = static_cast<float>(random.uniform(-1000.0, 1000.0));
     const SinCos<float> s = sin_cos(single);
-    worst_f32 = std::max({worst_f32, std::abs(s.sine - std::sin(static_cast<long double>(single))),
-                          std::abs(s.cosine - std::cos(static_cast<long double>(single)))});
+    worst_f32 = std::max({worst_f32, std::abs(exact(s.sine) - std::sin(exact(single))),
+                          std::abs(exact(s.cosine) - std::cos(exact(single)))});
     const double wide = random.uniform(-1e5, 1e5);
     const SinCos<double> d = sin_cos(wide);
-    worst_f64 = std::max({worst_f64, std::abs(d.sine - std::sin(static_cast<long double>(wide))),
-                          std::abs(d.cosine - std::cos(static_cast<long double>(wide)))});
+    worst_f64 = std::max({worst_f64, std::abs(exact(d.sine) - std::sin(exact(wide))),
+                          std::abs(exact(d.cosine) - std::cos(exact(wide)))});
   }
   EXPECT_LE(worst_f32, 1.2e-7L);
   EXPECT_LE(worst_f64, 3e-16L);
@@ -47,13 +53,11 @@ TEST(Math, ArcTangentStaysWithinItsStatedError) {
     const double y = scale * random.uniform(-1, 1);
     const double x = random.uniform(-1, 1);
     worst_f64 =
-        std::max(worst_f64, std::abs(arc_tangent2(y, x) - std::atan2(static_cast<long double>(y),
-                                                                     static_cast<long double>(x))));
+        std::max(worst_f64, std::abs(exact(arc_tangent2(y, x)) - std::atan2(exact(y), exact(x))));
     const auto ys = static_cast<float>(y);
     const auto xs = static_cast<float>(x);
     worst_f32 = std::max(worst_f32,
-                         std::abs(arc_tangent2(ys, xs) - std::atan2(static_cast<long double>(ys),
-                                                                    static_cast<long double>(xs))));
+                         std::abs(exact(arc_tangent2(ys, xs)) - std::atan2(exact(ys), exact(xs))));
   }
   EXPECT_LE(worst_f32, 3e-7L);
   EXPECT_LE(worst_f64, 5e-16L);
@@ -78,18 +82,17 @@ TEST(Math, ExponentialAndLogarithmStayWithinTheirStatedErrors) {
   for (int i = 0; i < kSamples; ++i) {
     const auto single = static_cast<float>(random.uniform(-80, 80));
     worst_exp_f32 =
-        std::max(worst_exp_f32,
-                 std::abs(exponential(single) / std::exp(static_cast<long double>(single)) - 1));
+        std::max(worst_exp_f32, std::abs(exact(exponential(single)) / std::exp(exact(single)) - 1));
     const double wide = random.uniform(-700, 700);
-    worst_exp_f64 = std::max(
-        worst_exp_f64, std::abs(exponential(wide) / std::exp(static_cast<long double>(wide)) - 1));
+    worst_exp_f64 =
+        std::max(worst_exp_f64, std::abs(exact(exponential(wide)) / std::exp(exact(wide)) - 1));
     const auto positive = static_cast<float>(std::exp(random.uniform(-85, 85)));
-    const long double log_f32 = std::log(static_cast<long double>(positive));
-    worst_log_f32 = std::max(
-        worst_log_f32, std::abs(logarithm(positive) - log_f32) / std::max(1.0L, std::abs(log_f32)));
+    const long double log_f32 = std::log(exact(positive));
+    worst_log_f32 = std::max(worst_log_f32, std::abs(exact(logarithm(positive)) - log_f32) /
+                                                std::max(1.0L, std::abs(log_f32)));
     const double positive_wide = std::exp(random.uniform(-700, 700));
-    const long double log_f64 = std::log(static_cast<long double>(positive_wide));
-    worst_log_f64 = std::max(worst_log_f64, std::abs(logarithm(positive_wide) - log_f64) /
+    const long double log_f64 = std::log(exact(positive_wide));
+    worst_log_f64 = std::max(worst_log_f64, std::abs(exact(logarithm(positive_wide)) - log_f64) /
                                                 std::max(1.0L, std::abs(log_f64)));
   }
   EXPECT_LE(worst_exp_f32, 2e-7L);

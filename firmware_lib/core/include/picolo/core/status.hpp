@@ -8,7 +8,8 @@
 
 namespace picolo::inline v0 {
 
-// clang-format off: version 14 stumbles over the attribute
+// The attribute confuses clang-format 14.
+// clang-format off
 enum class [[nodiscard]] Status : std::uint8_t {
   ok = 0,
   not_ready,         ///< nothing to deliver yet; call again in a later cycle

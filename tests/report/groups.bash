@@ -1,0 +1,108 @@
+# shellcheck shell=bash disable=SC2154 # variables of ./run
+# SPDX-FileCopyrightText: picolo contributors
+# SPDX-License-Identifier: Apache-2.0
+# What `./run test` and `./run lint` do; sourced by ./run. Every result becomes one line of
+# build/records.tsv: group, name, outcome (passed, failed, skipped, built), seconds, reason.
+
+records=$root/build/records.tsv
+report=$root/tests/report
+
+record() { printf '%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$3" "$4" "${5:-}" >>"$records"; }
+
+# Builds a preset as a row of the table; a build that fails is a failure, not the end.
+build_row() {
+  local start=$SECONDS
+  if (build "$@"); then
+    record "build $1" "$1" built $((SECONDS - start))
+  else
+    record "build $1" "$1" failed $((SECONDS - start)) "did not build, see build/$1/build.log"
+    return 1
+  fi
+}
+
+# ctest_rows PRESET SUFFIX CTEST_ARGS...: SUFFIX tells rows of the same group apart.
+ctest_rows() {
+  local preset=$1 suffix=$2 dir=$root/build/$1 code=0
+  shift 2
+  local name=${suffix// /-}
+  local junit=$dir/junit$name.xml log=$dir/ctest$name.log
+  rm -f "$junit"
+  say "run: testing $preset$suffix"
+  ctest --test-dir "$dir" --parallel "$jobs" --output-on-failure --test-output-size-passed 65536 \
+    --output-junit "$junit" "$@" >"$log" 2>&1 || code=$?
+  local before after
+  before=$(grep -c $'\tfailed\t' "$records" || true)
+  [[ -f $junit ]] && awk -v suffix="$suffix" -f "$report/junit.awk" "$junit" >>"$records"
+  after=$(grep -c $'\tfailed\t' "$records" || true)
+  if ((code != 0 && before == after)); then
+    tail -n 20 "$log" >&2
+    record "ctest$suffix" "$preset" failed 0 "ctest ended with $code, see ${log#"$root"/}"
+  fi
+}
+
+run_lint() {
+  need_packages "${packages_build[@]}" "${packages_full[@]}"
+  configure host-clang # clang-tidy reads clang's flags better than gcc's
+  mkdir -p "$root/build"
+  (cd "$root" && "$report/lint" "$root/build/host-clang" "$jobs")
+}
+
+lint_row() {
+  local start=$SECONDS
+  say "run: lint"
+  if run_lint >&2; then
+    record lint all passed $((SECONDS - start))
+  else
+    record lint all failed $((SECONDS - start)) "see above, or call ./run lint"
+  fi
+}
+
+# The groups of a newcomer's run.
+short_groups() {
+  build_row host-release || return 0
+  ctest_rows host-release "" --label-exclude '^(slow|fuzz)$'
+}
+
+long_groups() {
+  ctest_rows host-release " slow" --label-regex '^slow$' --label-exclude '^fuzz$'
+  local preset builds=(host-release)
+  for preset in host-debug host-clang; do
+    build_row "$preset" || continue
+    builds+=("$preset")
+    ctest_rows "$preset" " $preset" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
+  done
+  say "run: comparing trajectories of ${builds[*]}"
+  "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"
+  if build_row host-asan; then
+    export UBSAN_OPTIONS=print_stacktrace=1
+    ctest_rows host-asan " host-asan" \
+      --label-regex '^(unit|property|drivers|ports|integration)$' --label-exclude '^(slow|fuzz)$'
+    ctest_rows host-asan " host-asan fuzz" --label-regex '^fuzz$'
+  fi
+  lint_row
+}
+
+run_test() {
+  local size=short option
+  for option in "$@"; do
+    case $option in
+      --full) size=full ;;
+      --campaign) size=campaign ;;
+      *) die 2 "test does not know '$option'; it takes --full or --campaign" ;;
+    esac
+  done
+  need_packages "${packages_build[@]}"
+  [[ $size == short ]] || need_packages "${packages_full[@]}"
+  mkdir -p "$root/build"
+  : >"$records"
+  if [[ $size == campaign ]]; then
+    export PICOLO_CAMPAIGN=10 # tests multiply their repetitions by this
+    export RC_PARAMS=${RC_PARAMS:-"max_success=1000 seed=$RANDOM$RANDOM"}
+    say "run: RC_PARAMS='$RC_PARAMS'"
+  fi
+  SECONDS=0
+  short_groups
+  [[ $size == short ]] || long_groups
+  awk -v size="$size" -v seconds="$SECONDS" -v required="${PICOLO_REQUIRE:-}" \
+    -f "$report/table.awk" "$records"
+}

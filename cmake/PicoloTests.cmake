@@ -25,5 +25,5 @@ function(picolo_test name)
   target_compile_definitions(test_${name} PRIVATE
     PICOLO_TEST_DATA="${PICOLO_TEST_DATA}" PICOLO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=1")
 endfunction()

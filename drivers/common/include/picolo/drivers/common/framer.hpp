@@ -1,0 +1,116 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Finds frames in a stream of bytes that may lie: lost, damaged, inserted, or header bytes inside
+/// of the payload.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+
+#include "picolo/core/bytes.hpp"
+
+namespace picolo::inline v0 {
+
+enum class FrameVerdict : std::uint8_t {
+  incomplete,   ///< may become a frame
+  complete,     ///< the first `size` bytes are a frame
+  no_header,    ///< no frame begins here
+  implausible,  ///< sound by its checksum, impossible by its content
+  checksum,     ///< damaged
+};
+
+struct FrameCheck {
+  FrameVerdict verdict = FrameVerdict::incomplete;
+  std::size_t size = 0;  ///< of the complete frame
+};
+
+/// What a device's format tells: how long a frame can be, and what the bytes at the front of the
+/// window are. `check` is asked with 1 to kMaxFrame bytes and must not answer `incomplete` to
+/// kMaxFrame of them.
+template <typename F>
+concept FrameFormat = requires(const F& format, ByteView bytes) {
+  { F::kMaxFrame } -> std::convertible_to<std::size_t>;
+  { format.check(bytes) } -> std::same_as<FrameCheck>;
+};
+
+/// Never reset.
+struct FramerCounters {
+  std::uint32_t frames = 0;
+  std::uint32_t bad_checksums = 0;
+  std::uint32_t implausible = 0;
+  std::uint32_t skipped_bytes = 0;  ///< bytes that were part of no frame
+};
+
+/// A window over the stream that begins where a frame may begin. What is rejected is searched again
+/// from its second byte on, so no byte of a good frame is ever lost to a bad one before it.
+/// `push(byte); while (next()) { use(frame()); }`. Frames of fixed size: at most one a byte.
+/// Cost: a byte costs one check, and after a rejection at most kMaxFrame of them. Context: one at a time.
+template <FrameFormat Format>
+class Framer {
+ public:
+  explicit constexpr Framer(const Format& format = {}) : format_(format) {}
+
+  /// Precondition: `next()` answered false since the last push.
+  constexpr void push(std::uint8_t byte) {
+    window_[size_] = byte;
+    ++size_;
+  }
+
+  /// Moves on to the next frame in the window; false when more bytes are needed.
+  constexpr bool next() {
+    std::size_t start = frame_size_;  // the frame handed out before is done with
+    frame_size_ = 0;
+    while (start < size_) {
+      const FrameCheck found = format_.check({window_.data() + start, size_ - start});
+      if (found.verdict == FrameVerdict::complete) {
+        frame_size_ = found.size;
+        ++counters_.frames;
+        break;
+      }
+      if (found.verdict == FrameVerdict::incomplete && size_ - start < Format::kMaxFrame) { break; }
+      count(found.verdict);
+      ++counters_.skipped_bytes;
+      ++start;
+    }
+    drop(start);
+    return frame_size_ > 0;
+  }
+
+  /// The frame that `next` found; valid until the next call of `next` or `push`.
+  [[nodiscard]] constexpr ByteView frame() const { return {window_.data(), frame_size_}; }
+  /// Bytes received after the end of `frame()`: 0 unless a rejected candidate hid it.
+  [[nodiscard]] constexpr std::size_t bytes_after_frame() const { return size_ - frame_size_; }
+  /// Bytes that wait for the rest of their frame.
+  [[nodiscard]] constexpr std::size_t pending() const { return size_ - frame_size_; }
+  [[nodiscard]] constexpr const FramerCounters& counters() const { return counters_; }
+  [[nodiscard]] constexpr const Format& format() const { return format_; }
+  /// Forgets what waits: the stream was interrupted.
+  constexpr void reset() {
+    size_ = 0;
+    frame_size_ = 0;
+  }
+
+ private:
+  constexpr void count(FrameVerdict verdict) {
+    if (verdict == FrameVerdict::checksum) { ++counters_.bad_checksums; }
+    if (verdict == FrameVerdict::implausible) { ++counters_.implausible; }
+  }
+
+  constexpr void drop(std::size_t bytes) {
+    if (bytes == 0) { return; }
+    std::copy(window_.data() + bytes, window_.data() + size_, window_.data());
+    size_ -= bytes;
+  }
+
+  Format format_;
+  std::array<std::uint8_t, Format::kMaxFrame> window_{};
+  std::size_t size_ = 0;
+  std::size_t frame_size_ = 0;
+  FramerCounters counters_{};
+};
+
+}  // namespace picolo::inline v0

@@ -50,9 +50,11 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_
                       LaneSums& sums) {
   Lanes value, slope_x, slope_y, inside, arm_x, arm_y;
   for (std::size_t l = 0; l < kLanes; ++l) {
-    arm_x[l] = walk.cosine * x_m[l] - walk.sine * y_m[l];
-    arm_y[l] = walk.sine * x_m[l] + walk.cosine * y_m[l];
-    const FieldSample at = sample(field, arm_x[l] + walk.x_m, arm_y[l] + walk.y_m);
+    const float rotated_x = walk.cosine * x_m[l] - walk.sine * y_m[l];
+    const float rotated_y = walk.sine * x_m[l] + walk.cosine * y_m[l];
+    const FieldSample at = sample(field, rotated_x + walk.x_m, rotated_y + walk.y_m);
+    arm_x[l] = at.inside > 0.0F ? rotated_x : 0.0F;  // a NaN outside must not reach the sums
+    arm_y[l] = at.inside > 0.0F ? rotated_y : 0.0F;
     value[l] = at.value;
     slope_x[l] = at.slope_x_per_m;
     slope_y[l] = at.slope_y_per_m;
@@ -78,7 +80,7 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_
     sums.residual[l] += residual;
     sums.inside[l] += inside[l];
     sums.inliers[l] += residual <= walk.inlier_residual ? inside[l] : 0.0F;
-    sums.squared_radius[l] += inside[l] * (arm_x[l] * arm_x[l] + arm_y[l] * arm_y[l]);
+    sums.squared_radius[l] += arm_x[l] * arm_x[l] + arm_y[l] * arm_y[l];
   }
 }
 

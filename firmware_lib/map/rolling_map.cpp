@@ -78,6 +78,11 @@ DistanceFieldView RollingMapCore::field() const {
   return {storage_.field.data(), window_.width, window_.height, cells_per_m_, field_reach_m_};
 }
 
+std::size_t RollingMapCore::index_of(int column, int row) const {
+  return static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.width) +
+         static_cast<std::size_t>(column);
+}
+
 void RollingMapCore::begin_scan() {
   std::fill(storage_.changed.begin(), storage_.changed.end(), 0U);
 }
@@ -146,6 +151,10 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
   int row = floor_to_i32(window_lidar.y_m * cells_per_m_, -kCellLimit, kCellLimit);
   const int to_column = floor_to_i32(window_p.x_m * cells_per_m_, -kCellLimit, kCellLimit);
   const int to_row = floor_to_i32(window_p.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  const auto inside = [this](int x, int y) {
+    return x >= 0 && y >= 0 && x < window_.width && y < window_.height;
+  };
+  const bool whole_ray_inside = inside(column, row) && inside(to_column, to_row);
   // Bresenham's line, all octants; it ends at the window's edge, since the lidar stands inside.
   const int dx = to_column > column ? to_column - column : column - to_column;
   const int dy = to_row > row ? to_row - row : row - to_row;
@@ -154,8 +163,11 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
   const int steps = std::max(dx, dy) - stop_cells;
   int error = dx - dy;
   for (int i = 0; i < steps; ++i) {
-    if (column < 0 || row < 0 || column >= window_.width || row >= window_.height) { return; }
-    change(column, row, config_.miss);
+    if (!whole_ray_inside && !inside(column, row)) { return; }
+    // Most of free space is as free as it gets: nothing to change, and no hit comes after the rays.
+    if (storage_.occupancy[index_of(column, row)] > config_.low) {
+      change(column, row, config_.miss);
+    }
     const int twice = 2 * error;
     if (twice > -dy) {
       error -= dy;
@@ -231,9 +243,7 @@ void RollingMapCore::recompute_tile(int tile_column, int tile_row) {
         const int down = line[static_cast<std::size_t>(x + radius + dx)];
         if (down < radius) { square = std::min(square, dx * dx + down * down); }
       }
-      storage_.field[static_cast<std::size_t>(y0 + y) * static_cast<std::size_t>(window_.width) +
-                     static_cast<std::size_t>(x0 + x)] =
-          byte_of_square_[static_cast<std::size_t>(square)];
+      storage_.field[index_of(x0 + x, y0 + y)] = byte_of_square_[static_cast<std::size_t>(square)];
     }
   }
 }

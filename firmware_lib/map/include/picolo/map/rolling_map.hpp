@@ -31,8 +31,7 @@ struct MapConfig {
   std::int8_t occupied_from = 15;
   [[nodiscard]] constexpr bool valid() const {
     return cell_m > 0.0F && field_radius_cells >= 2 && field_radius_cells <= kMaxFieldRadius &&
-           hit > 0 && miss < 0 && low < 0 && high > 0 && occupied_from > 0 &&
-           occupied_from <= high;
+           hit > 0 && miss < 0 && low < 0 && high > 0 && occupied_from > 0 && occupied_from <= high;
   }
 };
 static_assert(MapConfig{}.valid());
@@ -82,6 +81,7 @@ class RollingMapCore {
   [[nodiscard]] std::span<const std::int8_t> occupancy() const { return storage_.occupancy; }
 
  private:
+  [[nodiscard]] std::size_t index_of(int column, int row) const;
   [[nodiscard]] bool mark_changed(std::size_t index);
   void change(int column, int row, int delta);
   void paint(int column, int row);

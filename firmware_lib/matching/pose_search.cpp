@@ -1,0 +1,174 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/matching/pose_search.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/convert.hpp"
+#include "picolo/core/number_model.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+bool fits(const DistanceFieldView& field, const MaxPyramidView& pyramid) {
+  if (pyramid.levels < 1 || pyramid.levels > kMaxPyramidLevels) { return false; }
+  for (int level = 0; level < pyramid.levels; ++level) {
+    const auto l = static_cast<std::size_t>(level);
+    if (pyramid.nearest[l] == nullptr ||
+        pyramid.width[l] * MaxPyramidView::size_of(level) != field.width ||
+        pyramid.height[l] * MaxPyramidView::size_of(level) != field.height) {
+      return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+Status PoseSearch::begin(const DistanceFieldView& field, const MaxPyramidView& pyramid,
+                         const PointsView& points, const SearchWindow& window,
+                         const PosePrior& prior) {
+  phase_ = Phase::done;
+  exact_ = false;
+  bounded_ = false;
+  search_.begin(config_.order, 0);
+  if (!config_.valid() || !fits(field, pyramid) || !(window.half_translation_m >= 0.0F) ||
+      !(window.half_rotation_rad >= 0.0F)) {
+    return Status::invalid_argument;
+  }
+  if (points.size() == 0) { return Status::degenerate; }
+  point_count_ = std::min(points.size(), static_cast<std::size_t>(config_.max_points));
+  tree_.begin(field, pyramid, points, point_count_, window, prior, config_);
+  top_level_ = pyramid.levels - 1;
+  const int squares = (2 * tree_.half_cells()) / MaxPyramidView::size_of(top_level_) + 1;
+  if (2 * tree_.half_angles() + 1 > static_cast<int>(kMaxSearchAngles) ||
+      squares > static_cast<int>(kMaxRowSquares)) {
+    return Status::full;
+  }
+  const float full_score = static_cast<float>(kFullScore) * static_cast<float>(point_count_);
+  search_.begin(config_.order, round_to_i32(config_.min_score * full_score, 0, 1 << 20));
+  angle_bounds_.fill(0);
+  angle_ = -tree_.half_angles();
+  row_ = -tree_.half_cells();
+  phase_ = Phase::bounding;
+  return Status::ok;
+}
+
+std::size_t PoseSearch::bound_row(int angle, int row) {
+  const int size = MaxPyramidView::size_of(top_level_);
+  std::size_t count = 0;
+  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
+    PoseNode& square = squares_[count];
+    square = {0, static_cast<std::int16_t>(angle), static_cast<std::int16_t>(top_level_),
+              static_cast<std::int16_t>(x), static_cast<std::int16_t>(row)};
+    square.bound = tree_.bound_of(square);
+    ++count;
+  }
+  return count;
+}
+
+void PoseSearch::bound_next_row() {
+  const std::size_t count = bound_row(angle_, row_);
+  std::uint16_t& bound = angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())];
+  for (std::size_t i = 0; i < count; ++i) {
+    bound = std::max(bound, static_cast<std::uint16_t>(squares_[i].bound));
+  }
+  row_ += MaxPyramidView::size_of(top_level_);
+  if (row_ <= tree_.half_cells()) { return; }
+  row_ = -tree_.half_cells();
+  ++angle_;
+  if (angle_ > tree_.half_angles()) {
+    bounded_ = true;
+    phase_ = Phase::choosing;
+  }
+}
+
+// The next angle whose bound is above the best pose; an angle that was searched has bound 0.
+void PoseSearch::choose_angle() {
+  std::size_t chosen = angle_bounds_.size();
+  std::int32_t highest = search_.best();
+  for (std::size_t i = 0; i < angle_bounds_.size(); ++i) {
+    if (angle_bounds_[i] <= highest) { continue; }
+    chosen = i;
+    if (config_.order == ChildOrder::index) { break; }
+    highest = angle_bounds_[i];
+  }
+  if (chosen == angle_bounds_.size()) {
+    exact_ = true;
+    phase_ = Phase::done;
+    return;
+  }
+  angle_ = static_cast<int>(chosen) - tree_.half_angles();
+  row_ = -tree_.half_cells();
+  phase_ = Phase::rows;
+}
+
+void PoseSearch::push_next_row() {
+  const std::size_t count = bound_row(angle_, row_);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    if (squares_[i].bound <= search_.best()) { continue; }
+    squares_[kept] = squares_[i];
+    ++kept;
+  }
+  static_cast<void>(search_.push({squares_.data(), kept}));  // the stack is empty here
+  row_ += MaxPyramidView::size_of(top_level_);
+  phase_ = Phase::descending;
+}
+
+bool PoseSearch::step(std::uint32_t max_nodes) {
+  const std::uint32_t start = tree_.nodes();
+  while (phase_ != Phase::done && tree_.nodes() - start < std::max(max_nodes, 1U)) {
+    if (config_.max_nodes > 0 && tree_.nodes() >= config_.max_nodes) {
+      phase_ = Phase::done;
+      break;
+    }
+    switch (phase_) {
+      case Phase::done: break;
+      case Phase::bounding: bound_next_row(); break;
+      case Phase::choosing: choose_angle(); break;
+      case Phase::rows: push_next_row(); break;
+      case Phase::descending:
+        if (search_.step(tree_)) { break; }
+        phase_ = Phase::rows;
+        if (row_ > tree_.half_cells()) {
+          angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())] = 0;
+          phase_ = Phase::choosing;
+        }
+        break;
+    }
+  }
+  return done();
+}
+
+PoseSearchReport PoseSearch::report() const {
+  PoseSearchReport report;
+  const float per_unit = 1.0F / (static_cast<float>(kFullScore) *
+                                 static_cast<float>(std::max<std::size_t>(point_count_, 1)));
+  report.nodes = tree_.nodes();
+  report.found = search_.found();
+  report.exact = exact_;
+  if (report.found) {
+    report.best = {tree_.pose_of(search_.best_node()),
+                   static_cast<float>(search_.best()) * per_unit};
+  }
+  if (bounded_) {
+    std::int32_t bound = search_.bound_left();
+    for (const std::uint16_t angle_bound : angle_bounds_) {
+      bound = std::max(bound, static_cast<std::int32_t>(angle_bound));
+    }
+    report.upper_bound = static_cast<float>(exact_ ? search_.best() : bound) * per_unit;
+  }
+  return report;
+}
+
+Status PoseSearch::search(const DistanceFieldView& field, const MaxPyramidView& pyramid,
+                          const PointsView& points, const SearchWindow& window,
+                          const PosePrior& prior) {
+  const Status status = begin(field, pyramid, points, window, prior);
+  while (!step(1U << 16)) {}
+  return status;
+}
+
+}  // namespace picolo::inline v0

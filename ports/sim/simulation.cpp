@@ -46,12 +46,9 @@ Simulation::Simulation(const SimulationConfig& config)
       imu_(config.imu, config.start, config.seed),
       lidar_link_(lidar_port_, faults_, Device::lidar, config.start),
       imu_link_(imu_port_, faults_, Device::imu, config.start),
-      left_shaft_(vehicle_, 0, config.wheels.counts_per_turn, config.start),
-      right_shaft_(vehicle_, 1, config.wheels.counts_per_turn, config.start),
-      left_link_(can_, faults_, Device::wheel_left, config.start),
-      right_link_(can_, faults_, Device::wheel_right, config.start),
-      left_node_(config.wheels.left, left_shaft_, left_link_, config.start),
-      right_node_(config.wheels.right, right_shaft_, right_link_, config.start) {}
+      left_shaft_(vehicle_, 0, config.counts_per_turn, config.start),
+      right_shaft_(vehicle_, 1, config.counts_per_turn, config.start),
+      wheels_(config.wheels, left_shaft_, right_shaft_, can_, faults_, config.start) {}
 
 void Simulation::advance_to(Timestamp now) {
   // Whole steps only, so that nothing depends on how time is cut into calls; what they produce
@@ -64,29 +61,11 @@ void Simulation::live_one_step() {
   vehicle_.step(plan_.next(vehicle_.state()));
   const Duration elapsed = vehicle_.state().elapsed;
   const Timestamp until = config_.start + elapsed;
-  update_bus_state(until);
   lidar_link_.update(until);
   imu_link_.update(until);
-  serve_bus(until);
+  wheels_.advance_to(until);
   lidar_.advance_to(elapsed, config_.scene.world, vehicle_, lidar_link_);
   imu_.advance_to(elapsed, vehicle_, imu_link_);
-}
-
-void Simulation::serve_bus(Timestamp until) {
-  for (auto frame = can_.take_sent(until); frame; frame = can_.take_sent(until)) {
-    left_node_.hear(*frame);
-    right_node_.hear(*frame);
-  }
-  left_node_.advance_to(until);
-  right_node_.advance_to(until);
-  left_link_.release(until);
-  right_link_.release(until);
-}
-
-void Simulation::update_bus_state(Timestamp now) {
-  const bool gone = faults_.active(Device::can_bus, FaultKind::disconnect, now - config_.start);
-  const bool was_gone = can_.status().state == CanState::absent;
-  if (gone != was_gone) { can_.set_state(gone ? CanState::absent : CanState::active); }
 }
 
 Truth Simulation::truth() {

@@ -17,7 +17,6 @@
 #include "picolo/core/result.hpp"
 #include "picolo/core/time.hpp"
 #include "picolo/geometry/pose2.hpp"
-#include "picolo/sim/canopen_node.hpp"
 #include "picolo/sim/drive_plan.hpp"
 #include "picolo/sim/fault_plan.hpp"
 #include "picolo/sim/ld06_model.hpp"
@@ -29,21 +28,12 @@
 #include "picolo/sim/sim_serial_port.hpp"
 #include "picolo/sim/sim_watchdog.hpp"
 #include "picolo/sim/vehicle.hpp"
+#include "picolo/sim/wheel_pair.hpp"
 #include "picolo/sim/witmotion_model.hpp"
 
 namespace picolo::inline v0::sim {
 
 inline constexpr std::size_t kSimStoreBytes = 65'536;
-
-/// Both wheels' encoders. At 0.1 m radius 4096 counts a turn are 0.153 mm each.
-struct WheelsConfig {
-  std::uint32_t counts_per_turn = 4096;
-  CanopenNodeConfig left{.node = 1};
-  CanopenNodeConfig right{.node = 2};
-  [[nodiscard]] constexpr bool valid() const {
-    return counts_per_turn > 0 && left.valid() && right.valid() && left.node != right.node;
-  }
-};
 
 struct SimulationConfig {
   std::uint64_t seed = 1;
@@ -52,7 +42,8 @@ struct SimulationConfig {
   TwistScript script{};  ///< when not empty: driven instead of the scene's route
   DriveLimits drive{};
   VehicleConfig vehicle{};
-  WheelsConfig wheels{};
+  WheelPairConfig wheels{};
+  std::uint32_t counts_per_turn = 4096;  ///< of each wheel; at 0.1 m radius 0.153 mm each
   Ld06ModelConfig lidar{};
   WitMotionModelConfig imu{};
   std::uint32_t can_bit_rate = 500'000;
@@ -60,7 +51,7 @@ struct SimulationConfig {
   FaultList faults{};
   [[nodiscard]] constexpr bool valid() const {
     return drive.valid() && vehicle.valid() && wheels.valid() && lidar.valid() && imu.valid() &&
-           can_bit_rate > 0;
+           can_bit_rate > 0 && counts_per_turn > 0;
   }
 };
 
@@ -125,8 +116,6 @@ class Simulation {
   };
 
   void live_one_step();
-  void serve_bus(Timestamp until);
-  void update_bus_state(Timestamp now);
   [[nodiscard]] Truth to_truth(const VehicleState& state) const;
 
   SimulationConfig config_;
@@ -147,10 +136,7 @@ class Simulation {
   SerialLink imu_link_;
   Shaft left_shaft_;
   Shaft right_shaft_;
-  CanLink left_link_;
-  CanLink right_link_;
-  CanopenNode left_node_;
-  CanopenNode right_node_;
+  WheelPair wheels_;
 };
 
 }  // namespace picolo::inline v0::sim

@@ -1,0 +1,240 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The installed composition: devices in, pose out, on the cyclic executive. The demo, the tool,
+/// the board images and the examples all instantiate this class.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "picolo/controller/controller_config.hpp"
+#include "picolo/controller/devices.hpp"
+#include "picolo/controller/frames_out.hpp"
+#include "picolo/controller/pipeline.hpp"
+#include "picolo/controller/pose_composer.hpp"
+#include "picolo/controller/supervisor.hpp"
+#include "picolo/core/fixed_vector.hpp"
+#include "picolo/core/ring_buffer.hpp"
+#include "picolo/executive/executive.hpp"
+#include "picolo/localisation/event_ring.hpp"
+#include "picolo/localisation/localiser.hpp"
+
+namespace picolo::inline v0 {
+
+/// Never reset.
+struct ControllerCounters {
+  std::uint32_t can_frames = 0;      ///< received
+  std::uint32_t foreign_frames = 0;  ///< of these, meant for nobody here
+  std::uint32_t ticks = 0;           ///< complete samples of the wheels
+  std::uint32_t ticks_lost = 0;      ///< more than kMaxTicks in one frame
+  std::uint32_t readings = 0;        ///< beams of the lidar
+  std::uint32_t imu_samples = 0;
+  std::uint32_t frames_sent = 0;
+  std::uint32_t frames_refused =
+      0;  ///< the bus had no room; they are not repeated, the next ones are newer
+};
+
+/// All memory inside (see the profile), none from the heap; keep it in static storage. `start`,
+/// then `run_frame` whenever `next_frame` has come: by an absolute-time sleep, a hardware timer, or
+/// a simulated clock. Never blocks. Context: one, the cycle; `read_pose` from any.
+template <Profile P, WheelDevice Wheels, LidarDevice Lidar, ImuDevice Imu>
+class Controller {
+ public:
+  static constexpr std::size_t kMaxTicks = 8;
+  static constexpr std::size_t kMaxReadings = 48;
+  static constexpr std::size_t kMaxImuSamples = 8;
+  static constexpr std::size_t kSerialSlices = 4;  ///< of the byte bound: keeps the buffers small
+
+  /// Everything referred to outlives the controller. `events` may lie in memory that survives a
+  /// reset.
+  Controller(const Board& board, Wheels& wheels, Lidar& lidar, Imu& imu, EventRing& events,
+             const ControllerConfig& config)
+      : config_(config.valid() ? config : ControllerConfig{}),
+        configuration_valid_(config.valid()),
+        board_(board),
+        wheels_(wheels),
+        lidar_(lidar),
+        imu_(imu),
+        events_(events),
+        localiser_(config_.localiser),
+        pipeline_(config_, {first_sweep_, second_sweep_, x_m_, y_m_}, localiser_.core()),
+        composer_(config_),
+        supervisor_(config_.health, events),
+        executive_(config_.cycle, controller_tasks(config_.work, config_.budgets), board.clock,
+                   board.cycle_counter, board.watchdog) {}
+  Controller(const Controller&) = delete;
+  Controller& operator=(const Controller&) = delete;
+  ~Controller() = default;
+
+  /// The first frame is released at once. `invalid_argument`: the configuration; the pose says
+  /// fault then, and nothing runs.
+  Status start() {
+    const Timestamp now = board_.clock.now();
+    supervisor_.start(now, events_.attach());
+    composer_.start(now);
+    const Status status = configuration_valid_ ? executive_.start() : Status::invalid_argument;
+    if (status != Status::ok) {
+      supervisor_.refuse_configuration();
+      supervisor_.update(now, estimate_, executive_.schedule());
+    }
+    publish(now);
+    return status;
+  }
+  [[nodiscard]] Timestamp next_frame() const { return executive_.next_release(); }
+  /// Runs the tasks of the frame that is due. `not_ready`: none is.
+  Status run_frame() { return executive_.run_frame(*this); }
+  /// The same, with an observer of each task's length.
+  template <TaskObserver Observer>
+  Status run_frame(Observer& observer) {
+    return executive_.run_frame(*this, observer);
+  }
+
+  /// The newest published pose. False before `start`. Wait-free, from any context.
+  [[nodiscard]] bool read_pose(PoseEstimate& estimate) const { return published_.read(estimate); }
+
+  // The rest is for the cycle's own context.
+  [[nodiscard]] const PoseEstimate& estimate() const { return estimate_; }
+  [[nodiscard]] const FrameInfo& last_frame() const { return frame_; }
+  [[nodiscard]] const Schedule& schedule() const { return executive_.schedule(); }
+  [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
+  [[nodiscard]] const Supervisor& supervisor() const { return supervisor_; }
+  [[nodiscard]] const ControllerCounters& counters() const { return counters_; }
+  [[nodiscard]] const ControllerConfig& config() const { return config_; }
+
+  /// For the executive: does the work of one task. Always passes its checkpoint; a device that is
+  /// silent or gone is the supervisor's matter, not the watchdog's.
+  bool run(std::size_t task, std::uint32_t work_bound, const FrameInfo& frame) {
+    frame_ = frame;
+    switch (static_cast<ControllerTask>(task)) {
+      case ControllerTask::can: drain_can(work_bound); break;
+      case ControllerTask::serial: drain_serial(work_bound); break;
+      case ControllerTask::odometry: integrate(); break;
+      case ControllerTask::undistort: pipeline_.undistort(work_bound); break;
+      case ControllerTask::match: match(work_bound); break;
+      case ControllerTask::map: pipeline_.map(work_bound); break;
+      case ControllerTask::report: report(); break;
+    }
+    return true;
+  }
+
+ private:
+  void drain_can(std::uint32_t max_frames) {
+    Status status = Status::ok;
+    for (std::uint32_t i = 0; i < max_frames; ++i) {
+      const Result<CanFrame> received = board_.can.receive();
+      status = received.status();
+      if (!received) { break; }
+      ++counters_.can_frames;
+      if (!wheels_.consume(*received)) {
+        ++counters_.foreign_frames;
+        continue;
+      }
+      const Result<WheelTicks> ticks = wheels_.take();
+      if (ticks) { keep(*ticks); }
+    }
+    supervisor_.line(DeviceIndex::wheels, status, frame_.start);
+    (void)wheels_.service(frame_.start);  // what the bus refused is tried again
+  }
+
+  void keep(const WheelTicks& ticks) {
+    supervisor_.heard(DeviceIndex::wheels, ticks.stamp);
+    ++counters_.ticks;
+    if (!ticks_.push_back(ticks)) { ++counters_.ticks_lost; }
+  }
+
+  void drain_serial(std::uint32_t max_bytes) {
+    const std::size_t slice = std::max<std::size_t>(1, max_bytes / kSerialSlices);
+    for (std::size_t i = 0; i < kSerialSlices && drain_lidar(slice); ++i) {}
+    for (std::size_t i = 0; i < kSerialSlices && drain_imu(slice); ++i) {}
+  }
+
+  // True while the line had something to say.
+  bool drain_lidar(std::size_t max_bytes) {
+    const Result<std::size_t> count = lidar_.poll(max_bytes, readings_);
+    supervisor_.line(DeviceIndex::lidar, count.status(), frame_.start);
+    for (std::size_t i = 0; i < count.value_or(0); ++i) { pipeline_.add(readings_[i]); }
+    counters_.readings += static_cast<std::uint32_t>(count.value_or(0));
+    return static_cast<bool>(count);
+  }
+
+  bool drain_imu(std::size_t max_bytes) {
+    const Result<std::size_t> count = imu_.poll(max_bytes, samples_);
+    supervisor_.line(DeviceIndex::imu, count.status(), frame_.start);
+    for (std::size_t i = 0; i < count.value_or(0); ++i) {
+      supervisor_.heard(DeviceIndex::imu, samples_[i].stamp);
+      pipeline_.add(samples_[i]);
+    }
+    counters_.imu_samples += static_cast<std::uint32_t>(count.value_or(0));
+    return static_cast<bool>(count);
+  }
+
+  // After both drains, so that the gyro's samples are in before the wheels ask for them.
+  void integrate() {
+    for (const WheelTicks& ticks : ticks_) { pipeline_.add(ticks); }
+    ticks_.clear();
+    publish(frame_.start);
+  }
+
+  void publish(Timestamp now) {
+    estimate_ =
+        composer_.compose(now, pipeline_.newest_pose(now), pipeline_.odometry().base_twist());
+    estimate_.state = supervisor_.state();
+    estimate_.reason = supervisor_.reason();
+    published_.publish(estimate_);
+  }
+
+  void match(std::uint32_t max_point_iterations) {
+    if (!pipeline_.match(max_point_iterations)) { return; }
+    const MatchVerdict& verdict = pipeline_.verdict();
+    supervisor_.matched(verdict);
+    if (!verdict.accepted) { return; }
+    composer_.correct(verdict, pipeline_.newest_pose(frame_.start));
+    if (composer_.jumped()) {
+      supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm());
+    }
+  }
+
+  void report() {
+    supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
+    supervisor_.update(frame_.start, estimate_, executive_.schedule());
+    if (!config_.frames_out.enabled) { return; }
+    send(encode_pose(config_.frames_out, estimate_));
+    send(encode_health(config_.frames_out, estimate_, report_counter_));
+    ++report_counter_;
+  }
+
+  void send(const CanFrame& frame) {
+    const bool taken = is_ok(board_.can.transmit(frame));
+    ++(taken ? counters_.frames_sent : counters_.frames_refused);
+  }
+
+  ControllerConfig config_;  // the default one when the given one is refused
+  bool configuration_valid_;
+  Board board_;
+  Wheels& wheels_;
+  Lidar& lidar_;
+  Imu& imu_;
+  EventRing& events_;
+  std::array<RangeReturn, P::kReturns> first_sweep_{};
+  std::array<RangeReturn, P::kReturns> second_sweep_{};
+  std::array<float, P::kReturns> x_m_{};
+  std::array<float, P::kReturns> y_m_{};
+  std::array<RangeReading, kMaxReadings> readings_{};
+  std::array<ImuSample, kMaxImuSamples> samples_{};
+  FixedVector<WheelTicks, kMaxTicks> ticks_{};
+  Localiser<P> localiser_;
+  Pipeline pipeline_;
+  PoseComposer composer_;
+  Supervisor supervisor_;
+  Executive<Clock, CycleCounter, Watchdog, kControllerTasks> executive_;
+  FrameInfo frame_{};
+  PoseEstimate estimate_{};
+  LatestValue<PoseEstimate> published_{};
+  ControllerCounters counters_{};
+  std::uint8_t report_counter_ = 0;
+};
+
+}  // namespace picolo::inline v0

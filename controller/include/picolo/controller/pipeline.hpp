@@ -1,0 +1,110 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// From samples to map_T_odom, in slices: what the tasks of the cycle call.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "picolo/controller/controller_config.hpp"
+#include "picolo/localisation/pose_estimate.hpp"
+#include "picolo/undistort/pose_buffer.hpp"
+
+namespace picolo::inline v0 {
+
+/// Memory of a profile that the pipeline works in. Equal sizes, one element a return.
+struct PipelineStorage {
+  std::span<RangeReturn> first_sweep;
+  std::span<RangeReturn> second_sweep;
+  std::span<float> x_m;
+  std::span<float> y_m;
+};
+
+/// Poses that the odometry remembers: at 100 Hz 0.64 s, which is a sweep of 10 Hz, its delays, and
+/// the work on the sweep before it.
+inline constexpr std::size_t kRememberedPoses = 64;
+
+/// Where the pipeline stands with the current sweep.
+enum class PipelineStage : std::uint8_t { waiting, undistorting, matching, mapping };
+
+struct PipelineCounters {
+  std::uint32_t sweeps_taken = 0;
+  std::uint32_t sweeps_replaced = 0;   ///< given up while undistorting because a newer one came
+  std::uint32_t sweeps_uncovered = 0;  ///< dropped: they begin before the oldest remembered pose
+  std::uint32_t sweeps_refused = 0;    ///< dropped: inconsistent stamps or too many returns
+  std::uint32_t increments = 0;        ///< of the wheels
+  std::uint32_t ticks_refused = 0;     ///< not newer than their predecessor
+};
+
+/// The end of a match.
+struct MatchVerdict {
+  bool accepted = false;
+  bool direction_unobservable = false;
+  HealthReason rejection = HealthReason::none;
+  Timestamp reference{};
+  Pose2d odom_T_base{};   ///< odometry at `reference`
+  Pose2d map_T_base{};    ///< at `reference`
+  Matrix3f covariance{};  ///< of map_T_base, map axes
+};
+
+/// One sweep at a time goes through undistortion, match and map update; a newer one waits in the
+/// assembler and replaces what waits there. Cost: each call bounded by its argument. Context: cycle
+/// only.
+class Pipeline {
+ public:
+  /// Everything referred to outlives the pipeline. Precondition: config.valid().
+  Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
+           LocaliserCore& localiser);
+  Pipeline(const Pipeline&) = delete;
+  Pipeline& operator=(const Pipeline&) = delete;
+  ~Pipeline() = default;
+
+  void add(const ImuSample& sample) { dead_reckoning_.add(sample); }
+  void add(const RangeReading& reading) { sweeps_.add(reading); }
+  /// Advances odometry and remembers its pose.
+  void add(const WheelTicks& ticks);
+
+  /// Handles at most `max_returns` returns of the sweep, once the poses cover it. A sweep that
+  /// cannot be undistorted is dropped and counted.
+  void undistort(std::size_t max_returns);
+  /// As many iterations as `max_point_iterations` allow, at least one. True when a match ended in
+  /// this call: see `verdict`.
+  bool match(std::size_t max_point_iterations);
+  /// At most `max_rays` rays into the map.
+  void map(std::size_t max_rays);
+
+  [[nodiscard]] PipelineStage stage() const { return stage_; }
+  [[nodiscard]] const MatchVerdict& verdict() const { return verdict_; }
+  [[nodiscard]] const LocaliserCore& localiser() const { return localiser_; }
+  [[nodiscard]] const DeadReckoning& odometry() const { return dead_reckoning_; }
+  /// odom_T_base at its newest; the origin at `otherwise` as long as the wheels gave nothing.
+  [[nodiscard]] StampedPose newest_pose(Timestamp otherwise) const {
+    return poses_.size() > 0 ? poses_.newest() : StampedPose{otherwise, {}};
+  }
+  /// End of the newest complete sweep; the epoch before the first.
+  [[nodiscard]] Timestamp last_sweep_end() const { return last_sweep_end_; }
+  [[nodiscard]] const PipelineCounters& counters() const { return counters_; }
+  [[nodiscard]] const SweepCounters& sweep_counters() const { return sweeps_.counters(); }
+
+ private:
+  void take_sweep();
+  void conclude();
+
+  UndistortConfig undistort_;
+  LocaliserCore& localiser_;
+  DifferentialDrive drive_;
+  DeadReckoning dead_reckoning_;
+  std::array<StampedPose, kRememberedPoses> pose_storage_{};
+  PoseBufferCore poses_;
+  SweepAssemblerCore sweeps_;
+  UndistorterCore undistorter_;
+  MatchVerdict verdict_{};
+  Timestamp last_sweep_end_{};
+  PipelineStage stage_ = PipelineStage::waiting;
+  PipelineCounters counters_{};
+};
+
+}  // namespace picolo::inline v0

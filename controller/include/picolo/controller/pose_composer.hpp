@@ -1,0 +1,61 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The published pose: map_T_odom * odom_T_base(now), with what is known of its error.
+#pragma once
+
+#include "picolo/controller/controller_config.hpp"
+#include "picolo/controller/pipeline.hpp"
+#include "picolo/core/time.hpp"
+#include "picolo/localisation/pose_estimate.hpp"
+#include "picolo/odometry/wheel_odometry.hpp"
+
+namespace picolo::inline v0 {
+
+/// A finished match for an instant in the past corrects map_T_odom only; odometry since then is
+/// kept. Context: cycle only.
+class PoseComposer {
+ public:
+  /// Precondition: config.valid().
+  explicit PoseComposer(const ControllerConfig& config);
+
+  /// The ages of an estimate without any match count from here.
+  void start(Timestamp now) { reference_ = now; }
+  /// An accepted match. `odometry`: the newest pose.
+  void correct(const MatchVerdict& verdict, const StampedPose& odometry);
+  /// The estimate for `now`: odometry carried on with its last twist, for at most max_prediction;
+  /// the stamp says how far. State and reason are the caller's to fill in. Cost: three sin_cos.
+  [[nodiscard]] PoseEstimate compose(Timestamp now, const StampedPose& odometry,
+                                     const Twist2& base_twist);
+
+  [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
+  /// The last correction moved or turned the published pose by more than configured.
+  [[nodiscard]] bool jumped() const { return jumped_; }
+  /// How far, in millimetres.
+  [[nodiscard]] std::int32_t jump_mm() const;
+
+ private:
+  struct Way {
+    float distance_m = 0.0F;
+    float turn_rad = 0.0F;
+  };
+  void travel(const Pose2d& odom_T_base);
+
+  CovarianceGrowth growth_;
+  Duration max_prediction_;
+  float min_jump_m_;
+  float min_jump_rad_;
+  Pose2d map_T_odom_{};
+  Timestamp reference_{};
+  Pose2d reference_odom_T_base_{};
+  Pose2d reference_map_T_base_{};
+  Matrix3f reference_covariance_{};
+  Pose2d last_odom_T_base_{};
+  Way since_match_{};
+  Way since_start_{};
+  Pose2f last_jump_{};
+  std::uint32_t matches_ = 0;
+  bool jumped_ = false;
+};
+
+}  // namespace picolo::inline v0

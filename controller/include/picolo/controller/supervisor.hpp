@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Watches devices, matches and the cycle itself; decides the health state and writes the events.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "picolo/controller/controller_config.hpp"
+#include "picolo/controller/devices.hpp"
+#include "picolo/controller/pipeline.hpp"
+#include "picolo/executive/schedule.hpp"
+#include "picolo/localisation/event_ring.hpp"
+#include "picolo/localisation/health.hpp"
+
+namespace picolo::inline v0 {
+
+/// Context: cycle only. Cost: every call O(1), `update` O(tasks).
+class Supervisor {
+ public:
+  /// `events` outlives the supervisor and is attached.
+  Supervisor(const HealthConfig& config, EventRing& events) : monitor_(config), events_(events) {}
+
+  /// Ages count from here. `kept`: the ring holds events of the run before.
+  void start(Timestamp now, bool kept);
+  /// The configuration was refused: fault, for good.
+  void refuse_configuration() { configuration_refused_ = true; }
+  /// A device delivered a measurement of that stamp.
+  void heard(DeviceIndex device, Timestamp stamp);
+  /// What a device's line answered last; changes to and from `disconnected` become events.
+  void line(DeviceIndex device, Status status, Timestamp now);
+  void matched(const MatchVerdict& verdict);
+  void event(Timestamp now, EventCode code, std::int32_t argument);
+  /// Judges everything. `estimate` is the last published.
+  void update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule);
+
+  [[nodiscard]] HealthState state() const { return monitor_.state(); }
+  [[nodiscard]] HealthReason reason() const { return monitor_.reason(); }
+  [[nodiscard]] const EventRing& events() const { return events_; }
+  [[nodiscard]] bool connected(DeviceIndex device) const { return watch(device).connected; }
+
+ private:
+  struct Watch {
+    Timestamp last{};
+    bool connected = true;
+  };
+  [[nodiscard]] const Watch& watch(DeviceIndex device) const {
+    return watches_[static_cast<std::size_t>(device)];
+  }
+  [[nodiscard]] Duration age(DeviceIndex device, Timestamp now) const {
+    return now - watch(device).last;
+  }
+  void report_cycle(Timestamp now, const Schedule& schedule);
+
+  HealthMonitor monitor_;
+  EventRing& events_;
+  std::array<Watch, kDeviceCount> watches_{};
+  std::array<std::uint32_t, kControllerTasks> overruns_{};
+  std::uint32_t slipped_ = 0;
+  std::uint32_t cycle_troubles_ = 0;  // overruns and slipped frames
+  int accepted_streak_ = 0;
+  int rejected_streak_ = 0;
+  HealthReason rejection_ = HealthReason::match_rejected;
+  bool direction_unobservable_ = false;
+  bool configuration_refused_ = false;
+};
+
+}  // namespace picolo::inline v0

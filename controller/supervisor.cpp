@@ -1,0 +1,107 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/controller/supervisor.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "picolo/core/number_model.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+void count_up(int& streak) {
+  if (streak < std::numeric_limits<int>::max()) { ++streak; }
+}
+
+std::int32_t saturated(std::uint32_t count) {
+  constexpr std::uint32_t kMost = std::numeric_limits<std::int32_t>::max();
+  return static_cast<std::int32_t>(std::min(count, kMost));
+}
+
+}  // namespace
+
+void Supervisor::start(Timestamp now, bool kept) {
+  for (Watch& watch : watches_) { watch.last = now; }
+  event(now, EventCode::started, kept ? 1 : 0);
+}
+
+void Supervisor::event(Timestamp now, EventCode code, std::int32_t argument) {
+  events_.push({.stamp_us = now.time_since_epoch().count(),
+                .argument = argument,
+                .code = code,
+                .from = monitor_.state(),
+                .to = monitor_.state(),
+                .reason = monitor_.reason()});
+}
+
+void Supervisor::heard(DeviceIndex device, Timestamp stamp) {
+  Watch& watch = watches_[static_cast<std::size_t>(device)];
+  watch.last = std::max(watch.last, stamp);
+}
+
+void Supervisor::line(DeviceIndex device, Status status, Timestamp now) {
+  Watch& watch = watches_[static_cast<std::size_t>(device)];
+  const bool connected = status != Status::disconnected;
+  if (connected == watch.connected) { return; }
+  watch.connected = connected;
+  event(now, connected ? EventCode::device_back : EventCode::device_lost,
+        static_cast<std::int32_t>(device));
+}
+
+void Supervisor::matched(const MatchVerdict& verdict) {
+  if (verdict.accepted) {
+    count_up(accepted_streak_);
+    rejected_streak_ = 0;
+    direction_unobservable_ = verdict.direction_unobservable;
+    return;
+  }
+  count_up(rejected_streak_);
+  accepted_streak_ = 0;
+  rejection_ = verdict.rejection;
+}
+
+void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {
+  for (std::size_t task = 0; task < overruns_.size() && task < schedule.size(); ++task) {
+    const std::uint32_t overruns = schedule.counters(task).overruns;
+    if (overruns == overruns_[task]) { continue; }
+    cycle_troubles_ += overruns - overruns_[task];
+    overruns_[task] = overruns;
+    event(now, EventCode::overrun, static_cast<std::int32_t>(task));
+  }
+  const std::uint32_t slipped = schedule.frame_counters().slipped;
+  if (slipped == slipped_) { return; }
+  cycle_troubles_ += slipped - slipped_;
+  event(now, EventCode::frames_slipped, saturated(slipped - slipped_));
+  slipped_ = slipped;
+}
+
+void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule) {
+  report_cycle(now, schedule);
+  const HealthReason reason_before = monitor_.reason();
+  const HealthTransition transition = monitor_.update(
+      {.now = now,
+       .lidar_age = age(DeviceIndex::lidar, now),
+       .wheels_age = age(DeviceIndex::wheels, now),
+       .gyro_age = age(DeviceIndex::imu, now),
+       .match_age = estimate.match_age + (now - estimate.stamp),
+       .accepted_streak = accepted_streak_,
+       .rejected_streak = rejected_streak_,
+       .rejection = rejection_,
+       .direction_unobservable = direction_unobservable_,
+       .position_variance_m2 = estimate.match_covariance(0, 0) + estimate.match_covariance(1, 1),
+       .overruns = cycle_troubles_,
+       .cycle_fault = schedule.faulted(),
+       .configuration_refused = configuration_refused_});
+  if (!transition.state_changed && !transition.reason_changed) { return; }
+  events_.push(
+      {.stamp_us = now.time_since_epoch().count(),
+       .argument = transition.state_changed ? 0 : static_cast<std::int32_t>(reason_before),
+       .code = transition.state_changed ? EventCode::state_changed : EventCode::reason_changed,
+       .from = transition.from,
+       .to = transition.to,
+       .reason = transition.reason});
+}
+
+}  // namespace picolo::inline v0

@@ -1,0 +1,89 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The installed controller with the real drivers, on the simulated vehicle's wires.
+#pragma once
+
+#include "picolo/controller/controller.hpp"
+#include "picolo/drivers/canopen/canopen_wheels.hpp"
+#include "picolo/drivers/ld06/ld06.hpp"
+#include "picolo/drivers/witmotion/witmotion.hpp"
+#include "picolo/sim/simulation.hpp"
+
+namespace picolo::inline v0 {
+
+/// What a technician would configure for the simulated vehicle: its nominal sizes, not its true
+/// ones.
+[[nodiscard]] constexpr ControllerConfig simulated_vehicle_config() {
+  ControllerConfig config;
+  config.drive = {
+      .left_radius_m = 0.1, .right_radius_m = 0.1, .track_m = 0.5, .counts_per_revolution = 4096.0};
+  config.undistort.base_T_lidar = {0.12F, 0.0F, 0.0F};
+  config.undistort.limits = {.min_m = 0.05F, .max_m = 12.0F};
+  return config;
+}
+
+/// About 1 MB more than the profile's controller: keep it off the stack. The controller's map frame
+/// is world_T_start.
+template <Profile P>
+class SimulatedController {
+ public:
+  using Type = Controller<P, CanopenWheels, Ld06, WitMotion>;
+
+  explicit SimulatedController(const sim::SimulationConfig& simulation,
+                               const ControllerConfig& config = simulated_vehicle_config())
+      : simulation_(simulation),
+        wheels_(simulation_.can(), wheels_config(simulation)),
+        lidar_(simulation_.lidar_port()),
+        imu_(simulation_.imu_port()),
+        controller_({simulation_.can(), simulation_.clock(), simulation_.cycle_counter(),
+                     simulation_.watchdog()},
+                    wheels_, lidar_, imu_, events_, config) {}
+  SimulatedController(const SimulatedController&) = delete;
+  SimulatedController& operator=(const SimulatedController&) = delete;
+  ~SimulatedController() = default;
+
+  Status start() { return controller_.start(); }
+  /// Lets the world live until the next frame, then runs that.
+  template <TaskObserver Observer>
+  Status run_frame(Observer& observer) {
+    simulation_.advance_to(controller_.next_frame());
+    return controller_.run_frame(observer);
+  }
+  Status run_frame() {
+    NoTaskObserver nobody;
+    return run_frame(nobody);
+  }
+
+  /// The truth in the controller's map frame at an instant of the last 8 s.
+  [[nodiscard]] Result<Pose2d> true_map_T_base(Timestamp stamp) const {
+    const Result<sim::Truth> truth = simulation_.truth(stamp);
+    if (!truth) { return truth.status(); }
+    return between(simulation_.config().scene.world_T_start, truth->world_T_base);
+  }
+
+  [[nodiscard]] sim::Simulation& simulation() { return simulation_; }
+  [[nodiscard]] const sim::Simulation& simulation() const { return simulation_; }
+  [[nodiscard]] const Type& controller() const { return controller_; }
+  [[nodiscard]] const CanopenWheels& wheels() const { return wheels_; }
+  [[nodiscard]] const Ld06& lidar() const { return lidar_; }
+  [[nodiscard]] const WitMotion& imu() const { return imu_; }
+  [[nodiscard]] const EventRing& events() const { return events_; }
+
+ private:
+  [[nodiscard]] static CanopenWheelsConfig wheels_config(const sim::SimulationConfig& simulation) {
+    CanopenWheelsConfig config =
+        two_cia402_drives(simulation.wheels.left.node, simulation.wheels.right.node);
+    config.produce_sync = true;
+    return config;
+  }
+
+  sim::Simulation simulation_;
+  CanopenWheels wheels_;
+  Ld06 lidar_;
+  WitMotion imu_;
+  EventRing events_{};
+  Type controller_;
+};
+
+}  // namespace picolo::inline v0

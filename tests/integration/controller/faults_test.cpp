@@ -1,0 +1,178 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Devices that fall silent, lie, or are unplugged: the pose says so, and comes back by itself.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include "drive.hpp"
+
+namespace picolo {
+namespace {
+
+using sim::Device;
+using sim::FaultKind;
+using sim::SceneName;
+using test::Drive;
+using test::Publication;
+using ::testing::ElementsAre;
+
+constexpr auto kInit = HealthState::initialising;
+constexpr auto kTracking = HealthState::tracking;
+constexpr auto kDegraded = HealthState::degraded;
+constexpr auto kLost = HealthState::lost;
+
+sim::Fault from_10_to_13_s(Device device, FaultKind kind) {
+  return {.device = device, .kind = kind, .begin = 10s, .end = 13s};
+}
+
+TEST(Faults, GivenASilentLidarThenDegradedOnOdometryUntilItSpeaks) {
+  Drive drive{
+      test::drive_in(SceneName::office, {from_10_to_13_s(Device::lidar, FaultKind::silence)})};
+  drive.until(10s);
+  const float sigma_before = drive.controller().estimate().match_covariance(0, 0);
+  drive.until(10s + 500ms);
+  EXPECT_EQ(drive.state(), kDegraded);
+  EXPECT_EQ(drive.reason(), HealthReason::lidar_silent);
+  double worst_m = 0.0;
+  drive.until(13s, [&](const Publication& publication) {
+    EXPECT_EQ(publication.estimate.state, kDegraded);
+    worst_m = std::max(worst_m, publication.position_error_m);
+  });
+  EXPECT_LT(worst_m, 0.2) << "odometry carries on";
+  EXPECT_GT(drive.controller().estimate().match_age, 2900ms);
+  EXPECT_GT(drive.controller().estimate().match_covariance(0, 0), 4.0F * sigma_before);
+  drive.until(15s);
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_LT(drive.judged().position_error_m, 0.1);
+  EXPECT_THAT(drive.states(), ElementsAre(kTracking, kDegraded, kTracking));
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+TEST(Faults, GivenAnUnpluggedLidarThenTheEventsTellWhenItWentAndCame) {
+  Drive drive{
+      test::drive_in(SceneName::room, {from_10_to_13_s(Device::lidar, FaultKind::disconnect)})};
+  drive.until(12s);
+  EXPECT_FALSE(drive.controller().supervisor().connected(DeviceIndex::lidar));
+  drive.until(16s);
+  EXPECT_EQ(drive.state(), kTracking);
+  const auto lost = drive.events(EventCode::device_lost);
+  const auto back = drive.events(EventCode::device_back);
+  ASSERT_EQ(lost.size(), 1U);
+  ASSERT_EQ(back.size(), 1U);
+  EXPECT_EQ(lost[0].argument, static_cast<std::int32_t>(DeviceIndex::lidar));
+  EXPECT_NEAR(static_cast<double>(lost[0].stamp_us), 10e6, 10e3);
+  EXPECT_NEAR(static_cast<double>(back[0].stamp_us), 13e6, 10e3);
+}
+
+TEST(Faults, GivenASilentGyroThenTheWheelsTurnAloneAndTheStateSaysSo) {
+  Drive drive{
+      test::drive_in(SceneName::office, {from_10_to_13_s(Device::imu, FaultKind::silence)})};
+  drive.until(12s);
+  EXPECT_EQ(drive.state(), kDegraded);
+  EXPECT_EQ(drive.reason(), HealthReason::gyro_silent);
+  drive.until(15s);
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_LT(drive.judged().position_error_m, 0.1);
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+TEST(Faults, GivenOneSilentWheelThenDegradedThenLostAndFoundAgain) {
+  Drive drive{
+      test::drive_in(SceneName::room, {from_10_to_13_s(Device::wheel_left, FaultKind::silence)})};
+  drive.until(10s + 300ms);
+  EXPECT_EQ(drive.state(), kDegraded);
+  EXPECT_EQ(drive.reason(), HealthReason::wheels_silent);
+  const Timestamp frozen_at = drive.controller().estimate().stamp;
+  drive.until(12s);
+  EXPECT_EQ(drive.state(), kLost)
+      << "without wheels no sweep can be undistorted: nothing tells the motion";
+  EXPECT_LE(drive.controller().estimate().stamp - frozen_at, 25ms)
+      << "the pose does not pretend to be newer";
+  drive.until(17s);
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_LT(drive.judged().position_error_m, 0.12);
+  EXPECT_THAT(drive.states(), ElementsAre(kTracking, kDegraded, kLost, kDegraded, kTracking));
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+TEST(Faults, GivenAWheelThatLosesPowerThenItIsStartedAgainAndItsJumpIsNoMotion) {
+  sim::Fault power_loss{.device = Device::wheel_right,
+                        .kind = FaultKind::disconnect,
+                        .begin = 10s,
+                        .end = 10s + 200ms};
+  Drive drive{test::drive_in(SceneName::room, {power_loss})};
+  drive.until(10s + 200ms);
+  const Pose2d before = drive.controller().estimate().odom_T_base;
+  drive.until(11s);
+  const Pose2d after = drive.controller().estimate().odom_T_base;
+  EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.6)
+      << "counts start at 0 again: no leap";
+  drive.until(15s);
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_LT(drive.judged().position_error_m, 0.12);
+}
+
+TEST(Faults, GivenTheWholeBusGoneThenLostAndBack) {
+  Drive drive{
+      test::drive_in(SceneName::room, {from_10_to_13_s(Device::can_bus, FaultKind::disconnect)})};
+  drive.until(12s);
+  EXPECT_EQ(drive.state(), kLost);
+  EXPECT_FALSE(drive.controller().supervisor().connected(DeviceIndex::wheels));
+  EXPECT_GT(drive.controller().counters().frames_refused, 0U);
+  drive.until(18s);
+  EXPECT_TRUE(drive.controller().supervisor().connected(DeviceIndex::wheels));
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_LT(drive.judged().position_error_m, 0.12);
+}
+
+TEST(Faults, GivenEverythingSilentFromTheStartThenInitialisingForever) {
+  Drive drive{test::drive_in(SceneName::room,
+                             {{.device = Device::lidar, .kind = FaultKind::silence, .end = 1h}})};
+  drive.until(5s,
+              [](const Publication& publication) { EXPECT_EQ(publication.estimate.state, kInit); });
+  EXPECT_EQ(drive.reason(), HealthReason::lidar_silent);
+}
+
+TEST(Faults, GivenDamagedBytesThenTheyAreCountedAndThePoseStaysTrue) {
+  Drive drive{test::drive_in(SceneName::office, {{.device = Device::lidar,
+                                                  .kind = FaultKind::corrupt,
+                                                  .begin = 5s,
+                                                  .end = 25s,
+                                                  .probability = 0.1F},
+                                                 {.device = Device::imu,
+                                                  .kind = FaultKind::corrupt,
+                                                  .begin = 5s,
+                                                  .end = 25s,
+                                                  .probability = 0.1F}})};
+  drive.until(2s);
+  double worst_m = 0.0;
+  drive.until(30s, [&](const Publication& publication) {
+    worst_m = std::max(worst_m, publication.position_error_m);
+  });
+  EXPECT_GT(drive.robot().lidar().counters().bad_checksums, 100U);
+  EXPECT_GT(drive.robot().imu().counters().bad_checksums, 50U);
+  EXPECT_LT(worst_m, 0.12);
+  EXPECT_EQ(drive.state(), kTracking);
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+TEST(Faults, GivenLateLidarPacketsThenTheirStampsStillFitTheOdometry) {
+  Drive drive{test::drive_in(SceneName::office, {{.device = Device::lidar,
+                                                  .kind = FaultKind::delay,
+                                                  .begin = 5s,
+                                                  .end = 25s,
+                                                  .probability = 0.02F,
+                                                  .delay = 20ms}})};
+  drive.until(2s);
+  double worst_m = 0.0;
+  drive.until(30s, [&](const Publication& publication) {
+    worst_m = std::max(worst_m, publication.position_error_m);
+  });
+  EXPECT_LT(worst_m, 0.12);
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+}  // namespace
+}  // namespace picolo

@@ -43,6 +43,7 @@ ctest_rows() {
 run_lint() {
   need_packages "${packages_build[@]}" "${packages_full[@]}"
   configure host-clang # clang-tidy reads clang's flags better than gcc's
+  cmake "$root/build/host-clang" >/dev/null # compile_commands.json of the tree as it is now
   mkdir -p "$root/build"
   (cd "$root" && "$report/lint" "$root/build/host-clang" "$jobs")
 }

@@ -95,7 +95,11 @@ Matrix3f covariance_of(const Matrix3f& information, float otherwise) {
       factor.vectorD().minCoeff() <= 0.0F) {
     return unknown;
   }
-  const Eigen::Matrix3f inverse = factor.solve(Eigen::Matrix3f::Identity());
+  // Column by column: Eigen's path for several right-hand sides has a guarded static.
+  Eigen::Matrix3f inverse;
+  for (int column = 0; column < 3; ++column) {
+    inverse.col(column) = factor.solve(Eigen::Vector3f{Eigen::Vector3f::Unit(column)});
+  }
   Matrix3f result;
   for (int row = 0; row < 3; ++row) {
     for (int column = 0; column < 3; ++column) {

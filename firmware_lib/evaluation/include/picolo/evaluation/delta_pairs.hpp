@@ -35,7 +35,7 @@ struct DeltaConfig {
 /// empty. `invalid_argument` for a bad configuration or short scratch; `full` when `pairs` is too
 /// short (as many as poses always suffice, except for angles with all_pairs, where n (n - 1) / 2
 /// do).
-/// Cost: O(poses), O(poses log poses) for metres with all_pairs, O(poses^2) for angles with all_pairs.
+/// Cost: O(poses); with all_pairs O(poses log poses) for metres, O(poses^2) for angles.
 [[nodiscard]] Result<std::size_t> select_pairs(std::span<const Transform3d> poses,
                                                const DeltaConfig& config,
                                                std::span<double> path_scratch,

@@ -48,7 +48,8 @@ struct FramerCounters {
 /// A window over the stream that begins where a frame may begin. What is rejected is searched again
 /// from its second byte on, so no byte of a good frame is ever lost to a bad one before it.
 /// `push(byte); while (next()) { use(frame()); }`. Frames of fixed size: at most one a byte.
-/// Cost: a byte costs one check, and after a rejection at most kMaxFrame of them. Context: one at a time.
+/// Cost: a byte costs one check, and after a rejection at most kMaxFrame of them.
+/// Context: one at a time.
 template <FrameFormat Format>
 class Framer {
  public:

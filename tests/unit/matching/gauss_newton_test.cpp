@@ -39,7 +39,8 @@ std::unique_ptr<Map> mapped(const std::vector<test::Wall>& walls) {
   return map;
 }
 
-/// Both walls of the endless corridor as far as the window reaches, without the gaps that beams leave far away.
+/// Both walls of the endless corridor as far as the window reaches, without the gaps that beams
+/// leave far away.
 std::unique_ptr<Map> mapped_corridor() {
   auto map = std::make_unique<Map>();
   map->core().reset(0.0, 0.0);

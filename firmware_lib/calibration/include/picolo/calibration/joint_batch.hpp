@@ -45,7 +45,8 @@ struct JointReport {
   Refusal refusal{};
 };
 
-/// Cost: 18 (rounds + 1) + 3 passes; one sin_cos a sample, pass and round. State: under 3 KiB of stack.
+/// Cost: 18 (rounds + 1) + 3 passes; one sin_cos a sample, pass and round.
+/// State: under 3 KiB of stack.
 /// Returns `invalid_argument` for a configuration that is not valid, `degenerate` with `refusal`
 /// set when the drive cannot determine the parameters (`drive` then holds whatever could be
 /// computed), else `ok`.

@@ -67,7 +67,8 @@ class MotionCheck {
   /// 1 - correlation^2 between speed and turn of the wheels: 0 on one constant arc.
   [[nodiscard]] double arc_spread() const;
 
-  /// Energy of the sum of both wheels in that of sum and difference: 1 straight ahead, 0 on the spot.
+  /// Energy of the sum of both wheels in that of sum and difference: 1 straight ahead, 0 on the
+  /// spot.
   [[nodiscard]] double speed_share() const;
 
  private:

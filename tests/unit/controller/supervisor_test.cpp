@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/controller/supervisor.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace picolo {
+namespace {
+
+constexpr TaskTable<2> kTable{
+    TaskEntry{.name = "first", .budget = 1ms},
+    TaskEntry{.name = "second", .budget = 1ms, .policy = OverrunPolicy::fault}};
+
+/// A supervisor whose devices all speak every 25 ms, with a schedule that runs in time unless told
+/// otherwise.
+struct SupervisorTest : ::testing::Test {
+  EventRing ring{};
+  Supervisor supervisor{HealthConfig{}, ring};
+  std::array<TaskState, 2> states{};
+  Schedule schedule{ExecutiveConfig{}, kTable, states};
+  Timestamp now{1min};
+  PoseEstimate estimate{};
+
+  void SetUp() override {
+    ring.clear();
+    ASSERT_EQ(schedule.start(now), Status::ok);
+    supervisor.start(now, false);
+  }
+  void run_frame(Duration length_of_first = 10us, Duration length_of_second = 10us) {
+    ASSERT_TRUE(schedule.begin_frame(now));
+    for (std::size_t task = 0; task < 2; ++task) {
+      ASSERT_TRUE(schedule.take(task));
+      schedule.finish(task, task == 0 ? length_of_first : length_of_second, 0, true);
+    }
+    (void)schedule.end_frame(now);
+  }
+  void tick(bool lidar = true, bool wheels = true, bool imu = true) {
+    now += 25ms;
+    if (wheels) { supervisor.heard(DeviceIndex::wheels, now); }
+    if (lidar) { supervisor.heard(DeviceIndex::lidar, now); }
+    if (imu) { supervisor.heard(DeviceIndex::imu, now); }
+    estimate.stamp = now;
+    supervisor.update(now, estimate, schedule);
+  }
+  void track() {
+    for (int i = 0; i < 3; ++i) { supervisor.matched({.accepted = true}); }
+    tick();
+    ASSERT_EQ(supervisor.state(), HealthState::tracking);
+  }
+  [[nodiscard]] std::vector<EventCode> codes() const {
+    std::vector<EventCode> found;
+    for (std::size_t i = 0; i < ring.size(); ++i) { found.push_back(ring[i].code); }
+    return found;
+  }
+  [[nodiscard]] const Event& newest() const { return ring[ring.size() - 1]; }
+};
+
+TEST_F(SupervisorTest, GivenTheStartThenItIsTheFirstEvent) {
+  ASSERT_EQ(ring.size(), 1U);
+  EXPECT_EQ(ring[0].code, EventCode::started);
+  EXPECT_EQ(ring[0].argument, 0);
+  supervisor.start(now, true);
+  EXPECT_EQ(newest().argument, 1) << "the ring came through a reset";
+}
+
+TEST_F(SupervisorTest, GivenAgesFromTheStartThenADeviceHasItsTimeToSpeak) {
+  now += 100ms;
+  supervisor.update(now, estimate, schedule);
+  EXPECT_EQ(supervisor.reason(), HealthReason::starting);
+}
+
+TEST_F(SupervisorTest, GivenSilenceThenTheTransitionIsWrittenWithFromToAndReason) {
+  track();
+  for (int i = 0; i < 12; ++i) { tick(false); }
+  EXPECT_EQ(supervisor.state(), HealthState::degraded);
+  EXPECT_EQ(newest().code, EventCode::state_changed);
+  EXPECT_EQ(newest().from, HealthState::tracking);
+  EXPECT_EQ(newest().to, HealthState::degraded);
+  EXPECT_EQ(newest().reason, HealthReason::lidar_silent);
+}
+
+TEST_F(SupervisorTest, GivenAnotherCauseInTheSameStateThenTheReasonChangeIsWritten) {
+  track();
+  for (int i = 0; i < 12; ++i) { tick(true, true, false); }
+  ASSERT_EQ(supervisor.reason(), HealthReason::gyro_silent);
+  for (int i = 0; i < 12; ++i) { tick(false, true, false); }
+  EXPECT_EQ(newest().code, EventCode::reason_changed);
+  EXPECT_EQ(newest().argument, static_cast<std::int32_t>(HealthReason::gyro_silent));
+  EXPECT_EQ(newest().reason, HealthReason::lidar_silent);
+}
+
+TEST_F(SupervisorTest, GivenStampsOutOfOrderThenTheNewestCounts) {
+  supervisor.heard(DeviceIndex::wheels, now + 1s);
+  supervisor.heard(DeviceIndex::wheels, now + 500ms);
+  supervisor.matched({.accepted = true});
+  supervisor.matched({.accepted = true});
+  supervisor.matched({.accepted = true});
+  supervisor.heard(DeviceIndex::lidar, now + 1s);
+  supervisor.heard(DeviceIndex::imu, now + 1s);
+  supervisor.update(now + 1s, estimate, schedule);
+  EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenALineThatGoesAndComesThenEachIsOneEvent) {
+  supervisor.line(DeviceIndex::lidar, Status::ok, now);
+  supervisor.line(DeviceIndex::lidar, Status::not_ready, now);
+  EXPECT_EQ(ring.size(), 1U) << "nothing happened";
+  for (int i = 0; i < 5; ++i) { supervisor.line(DeviceIndex::lidar, Status::disconnected, now); }
+  EXPECT_FALSE(supervisor.connected(DeviceIndex::lidar));
+  EXPECT_TRUE(supervisor.connected(DeviceIndex::imu));
+  for (int i = 0; i < 5; ++i) { supervisor.line(DeviceIndex::lidar, Status::not_ready, now); }
+  EXPECT_EQ(codes(),
+            (std::vector{EventCode::started, EventCode::device_lost, EventCode::device_back}));
+  EXPECT_EQ(newest().argument, 1);
+}
+
+TEST_F(SupervisorTest, GivenRejectedMatchesInARowThenDegradedAndLost) {
+  track();
+  supervisor.matched({.accepted = false, .rejection = HealthReason::too_few_points});
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::tracking) << "one is none";
+  supervisor.matched({.accepted = false, .rejection = HealthReason::too_few_points});
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::degraded);
+  EXPECT_EQ(supervisor.reason(), HealthReason::too_few_points);
+  for (int i = 0; i < 13; ++i) {
+    supervisor.matched({.accepted = false, .rejection = HealthReason::match_rejected});
+  }
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::lost);
+}
+
+TEST_F(SupervisorTest, GivenAnAcceptedMatchBetweenThenTheRowBeginsAnew) {
+  track();
+  for (int i = 0; i < 20; ++i) {
+    supervisor.matched({.accepted = i % 2 == 0});
+    tick();
+    ASSERT_EQ(supervisor.state(), HealthState::tracking);
+  }
+}
+
+TEST_F(SupervisorTest, GivenAnUnobservableDirectionThenDegradedUntilItIsSeen) {
+  track();
+  supervisor.matched({.accepted = true, .direction_unobservable = true});
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::direction_unobservable);
+  supervisor.matched({.accepted = true});
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenAVaguePoseThenLost) {
+  track();
+  estimate.match_covariance = Matrix3f::diagonal(0.2F, 0.2F, 0.0F);
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::lost)
+      << "the limit of 0.25 m^2 holds for both axes together";
+}
+
+TEST_F(SupervisorTest, GivenAnOverrunThenItIsToldWithItsTaskAndHeldAgainstThePose) {
+  track();
+  run_frame(2ms);
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::degraded);
+  EXPECT_EQ(supervisor.reason(), HealthReason::overrun);
+  const auto all = codes();
+  const auto told = std::find(all.begin(), all.end(), EventCode::overrun);
+  ASSERT_NE(told, all.end());
+  EXPECT_EQ(ring[static_cast<std::size_t>(told - all.begin())].argument, 0) << "the first task";
+}
+
+TEST_F(SupervisorTest, GivenSlippedFramesThenTheirNumberIsTold) {
+  track();
+  now += 50ms;
+  run_frame();
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::overrun);
+  const Event& told = ring[ring.size() - 2];
+  EXPECT_EQ(told.code, EventCode::frames_slipped);
+  EXPECT_EQ(told.argument, 14)
+      << "75 ms after the start frame 15 is due, 14 comes first to be caught up";
+}
+
+TEST_F(SupervisorTest, GivenATaskThatMayNotOverrunThenFault) {
+  track();
+  run_frame(10us, 2ms);
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::fault);
+  EXPECT_EQ(supervisor.reason(), HealthReason::overrun);
+}
+
+TEST_F(SupervisorTest, GivenARefusedConfigurationThenFault) {
+  supervisor.refuse_configuration();
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::fault);
+  EXPECT_EQ(supervisor.reason(), HealthReason::configuration);
+}
+
+}  // namespace
+}  // namespace picolo

@@ -16,8 +16,7 @@ constexpr Duration kLongestSilence = 1000s;  // keeps counts times microseconds 
 
 /// Counts the wheel can have turned in this time, times a million.
 std::int64_t reach(std::uint32_t counts_per_s, Duration time) {
-  return static_cast<std::int64_t>(counts_per_s) *
-         std::clamp(time, Duration{0}, kLongestSilence).count();
+  return static_cast<std::int64_t>(counts_per_s) * std::min(time, kLongestSilence).count();
 }
 
 }  // namespace
@@ -40,7 +39,7 @@ WheelCounter::Step WheelCounter::update(Timestamp stamp, std::int64_t position) 
   const auto range = static_cast<std::int64_t>(config_.modulus);
   if (position < -range || position >= range) { return Step::out_of_range; }
   const auto now = static_cast<std::uint32_t>(position < 0 ? position + range : position);
-  const Duration silence = stamp - last_stamp_;
+  const Duration silence = std::max(stamp - last_stamp_, Duration{0});
   const std::int64_t step = wrapped_difference(now, last_position_, config_.modulus);
   const bool had_base = has_base_;
   has_base_ = true;

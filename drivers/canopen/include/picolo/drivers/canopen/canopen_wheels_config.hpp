@@ -35,13 +35,20 @@ struct CanopenWheelConfig {
   }
   [[nodiscard]] constexpr bool valid() const {
     const auto position = canopen::find_field(mapping, position_index, position_subindex);
-    return canopen::is_node(node) && pdo_id() > canopen::kSyncId &&
+    return canopen::is_node(node) && pdo_id() > canopen::kSyncId + canopen::kMaxNode &&
            pdo_id() < canopen::kHeartbeatBase && position && position->bits <= 32 &&
            counter.modulus <= (std::uint64_t{1} << position->bits) &&
            canopen::total_bits(mapping) <= 64 && counter.valid() &&
            (velocity_index == 0 || canopen::find_field(mapping, velocity_index, velocity_subindex));
   }
 };
+
+/// Wheels that share a TPDO agree on its content and read different objects.
+[[nodiscard]] constexpr bool compatible(const CanopenWheelConfig& a, const CanopenWheelConfig& b) {
+  if (a.pdo_id() != b.pdo_id()) { return true; }
+  return a.node == b.node && a.mapping == b.mapping &&
+         (a.position_index != b.position_index || a.position_subindex != b.position_subindex);
+}
 
 struct CanopenWheelsConfig {
   /// Left wheel first, right wheel second; wheels of one node may share a TPDO.
@@ -56,8 +63,11 @@ struct CanopenWheelsConfig {
 
   [[nodiscard]] constexpr bool valid() const {
     if (wheel_count < 1 || wheel_count > kMaxWheels) { return false; }
-    for (int i = 0; i < wheel_count; ++i) {
-      if (!wheels[static_cast<std::size_t>(i)].valid()) { return false; }
+    for (std::size_t i = 0; i < static_cast<std::size_t>(wheel_count); ++i) {
+      if (!wheels[i].valid()) { return false; }
+      for (std::size_t k = 0; k < i; ++k) {
+        if (!compatible(wheels[i], wheels[k])) { return false; }
+      }
     }
     return sync_period > Duration{0} && pair_window > Duration{0} && sync_counter_overflow != 1 &&
            sync_counter_overflow <= 240 && nodes.valid();

@@ -5,70 +5,13 @@
 
 #include <algorithm>
 
+#include "field_system.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
-#include "picolo/matching/field_sums.hpp"
 
 namespace picolo::inline v0 {
-namespace {
-
-constexpr float kUnknownVariance = 1e3F;
-
-template <typename Field>
-FieldSums sums_at(const Field& field, const GaussNewtonConfig& config, const MatchRequest& request,
-                  const Pose2f& pose) {
-  const SinCos<float> yaw = sin_cos(pose.theta_rad);
-  const float kernel = config.kernel_m / field.reach_m;
-  return walk_field(
-      field,
-      FieldWalk{.x_m = pose.x_m,
-                .y_m = pose.y_m,
-                .sine = yaw.sine,
-                .cosine = yaw.cosine,
-                .inverse_kernel_squared = kernel > 0.0F ? 1.0F / (kernel * kernel) : 0.0F,
-                .inlier_residual = config.inlier_m / field.reach_m},
-      request.points);
-}
-
-/// From unit-free sums to an information: residuals in metres over sigma, at most
-/// `effective_points` independent ones.
-NormalEquations3 scaled_system(const FieldSums& sums, const GaussNewtonConfig& config,
-                               float reach_m) {
-  const float per_residual = (reach_m / config.sigma_m) * (reach_m / config.sigma_m);
-  const float s = per_residual * std::min(1.0F, config.effective_points / sums.inside);
-  return {{{s * sums.xx, s * sums.xy, s * sums.xt, s * sums.xy, s * sums.yy, s * sums.yt,
-            s * sums.xt, s * sums.yt, s * sums.tt}},
-          {s * sums.bx, s * sums.by, s * sums.bt}};
-}
-
-void add_prior(const PosePrior& prior, const Pose2f& pose, NormalEquations3& system) {
-  const std::array<float, 3> error{prior.pose.x_m - pose.x_m, prior.pose.y_m - pose.y_m,
-                                   wrap_angle(prior.pose.theta_rad - pose.theta_rad)};
-  system.h = sum(system.h, prior.information);
-  for (std::size_t row = 0; row < 3; ++row) {
-    system.b[row] += (prior.information(row, 0) * error[0] + prior.information(row, 1) * error[1]) +
-                     prior.information(row, 2) * error[2];
-  }
-}
-
-/// Shortens a step that is too long in translation or rotation; one factor for all, so that its
-/// direction stays.
-void limit_step(const GaussNewtonConfig& config, std::array<float, 3>& step) {
-  const float length_m = hypotenuse(step[0], step[1]);
-  const float turn_rad = step[2] < 0.0F ? -step[2] : step[2];
-  float factor = 1.0F;
-  if (length_m > config.max_step_m) { factor = config.max_step_m / length_m; }
-  if (turn_rad * factor > config.max_step_rad) { factor = config.max_step_rad / turn_rad; }
-  for (float& component : step) { component *= factor; }
-}
-
-bool is_prior(const PosePrior& prior) {
-  return prior.information != Matrix3f{};
-}
-
-}  // namespace
 
 template <LikelihoodField Field>
 void GaussNewtonMatcher<Field>::begin(const Field& field, const MatchRequest& request) {
@@ -104,14 +47,15 @@ bool GaussNewtonMatcher<Field>::enough_points(int inside) {
 template <LikelihoodField Field>
 bool GaussNewtonMatcher<Field>::step() {
   if (done_) { return true; }
-  const FieldSums sums = sums_at(field_, config_, request_, report_.pose);
+  const FieldSums sums =
+      walk_field(field_, walk_at(config_, field_.reach_m, report_.pose), request_.points);
   report_.points = round_to_i32(sums.inside, 0, 1 << 24);
   if (!enough_points(report_.points)) { return finish(MatchOutcome::out_of_map); }
   report_.mean_residual_m = field_.reach_m * sums.residual / sums.inside;
   report_.inlier_share = sums.inliers / static_cast<float>(request_.points.size());
   length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
 
-  NormalEquations3 system = scaled_system(sums, config_, field_.reach_m);
+  NormalEquations3 system = scaled_system(sums, information_scale(sums, config_, field_.reach_m));
   report_.scan_information = system.h;
   const Conditioning conditioning = conditioning_of(system.h, length_m_);
   report_.condition = conditioning.condition;

@@ -69,7 +69,7 @@ bool GaussNewtonMatcher<Field>::step() {
           ? solve_constrained(system, conditioning, length_m_, config_.max_condition)
           : solve(system);
   if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
-  limit_step(config_, solution.step);
+  shorten(config_.max_step_m, config_.max_step_rad, solution.step);
   report_.pose = {report_.pose.x_m + solution.step[0], report_.pose.y_m + solution.step[1],
                   wrap_angle(report_.pose.theta_rad + solution.step[2])};
   ++report_.iterations;

@@ -18,31 +18,8 @@ namespace {
 constexpr float kNoGain = 1e-6F;  // of the cost: below it a float cannot tell two costs apart
 constexpr float kMaxDamping = 1e15F;
 
-float quadratic(const Matrix3f& m, const std::array<float, 3>& v) {
-  float sum = 0.0F;
-  for (std::size_t row = 0; row < 3; ++row) {
-    sum += v[row] * ((m(row, 0) * v[0] + m(row, 1) * v[1]) + m(row, 2) * v[2]);
-  }
-  return sum;
-}
-
 float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
   return (a[0] * b[0] + a[1] * b[1]) + a[2] * b[2];
-}
-
-Pose2f moved(const Pose2f& pose, const std::array<float, 3>& step) {
-  return {pose.x_m + step[0], pose.y_m + step[1], wrap_angle(pose.theta_rad + step[2])};
-}
-
-bool too_far(const GaussNewtonConfig& config, const Pose2f& start, const Pose2f& pose) {
-  const float turned_rad = wrap_angle(pose.theta_rad - start.theta_rad);
-  return hypotenuse(pose.x_m - start.x_m, pose.y_m - start.y_m) > config.max_total_m ||
-         turned_rad > config.max_total_rad || turned_rad < -config.max_total_rad;
-}
-
-bool is_small(const GaussNewtonConfig& config, const std::array<float, 3>& step) {
-  const float turn_rad = step[2] < 0.0F ? -step[2] : step[2];
-  return hypotenuse(step[0], step[1]) < config.converged_m && turn_rad < config.converged_rad;
 }
 
 }  // namespace
@@ -70,21 +47,16 @@ template <LikelihoodField Field>
 bool LevenbergMarquardtMatcher<Field>::finish(MatchOutcome outcome) {
   report_.outcome = outcome;
   done_ = true;
-  if (outcome != MatchOutcome::converged && outcome != MatchOutcome::iteration_limit &&
-      outcome != MatchOutcome::degenerate) {
-    report_.pose = request_.start;
-  }
+  if (!keeps_pose(outcome)) { report_.pose = request_.start; }
   return true;
 }
 
 template <LikelihoodField Field>
 float LevenbergMarquardtMatcher<Field>::cost_at(const Pose2f& pose) const {
   const FieldWalk walk = walk_at(config_.residual, field_.reach_m, pose);
-  const std::array<float, 3> error{request_.prior.pose.x_m - pose.x_m,
-                                   request_.prior.pose.y_m - pose.y_m,
-                                   wrap_angle(request_.prior.pose.theta_rad - pose.theta_rad)};
+  const std::array<float, 3> error = prior_error(request_.prior, pose);
   return scale_ * cost_of_field(field_, walk, request_.points) +
-         0.5F * quadratic(request_.prior.information, error);
+         0.5F * quadratic_form(request_.prior.information, error);
 }
 
 /// False when the match is over.
@@ -144,14 +116,18 @@ bool LevenbergMarquardtMatcher<Field>::step() {
   const MatchOutcome settled = degenerate_ ? MatchOutcome::degenerate : MatchOutcome::converged;
   StepSolution solution = damped_step();
   if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
-  limit_step(config_.residual, solution.step);
+  shorten(config_.residual.max_step_m, config_.residual.max_step_rad, solution.step);
   const float predicted =
-      dot(solution.step, system_.b) - 0.5F * quadratic(system_.h, solution.step);
-  if (is_small(config_.residual, solution.step) || !(predicted > kNoGain * cost_)) {
+      dot(solution.step, system_.b) - 0.5F * quadratic_form(system_.h, solution.step);
+  if (is_below(config_.residual.converged_m, config_.residual.converged_rad, solution.step) ||
+      !(predicted > kNoGain * cost_)) {
     return finish(settled);
   }
-  const Pose2f trial = moved(report_.pose, solution.step);
-  if (too_far(config_.residual, request_.start, trial)) { return finish(MatchOutcome::step_limit); }
+  const Pose2f trial = moved_by(report_.pose, solution.step);
+  if (is_beyond(config_.residual.max_total_m, config_.residual.max_total_rad, request_.start,
+                trial)) {
+    return finish(MatchOutcome::step_limit);
+  }
   ++report_.iterations;
   const float gain = (cost_ - cost_at(trial)) / predicted;
   if (gain > 0.0F) {

@@ -11,6 +11,8 @@ struct Arc {
   double across;   ///< (1 - cos t) / t
   double d_along;  ///< derivatives by t
   double d_across;
+  double dd_along;  ///< second derivatives
+  double dd_across;
 };
 
 /// Series below |theta| = 0.03, where the closed forms cancel.

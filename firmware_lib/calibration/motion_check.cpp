@@ -94,6 +94,17 @@ Status MotionCheck::rotation_gain(RotationGain& gain) const {
   return Status::ok;
 }
 
+void MotionCheck::gain_with_prior(const RotationGain& prior, double information, RotationGain& gain,
+                                  std::array<double, 4>& covariance) const {
+  const double ll = ll_ + information;
+  const double rr = rr_ + information;
+  const double lt = lt_ + information * prior.j21;
+  const double rt = rt_ + information * prior.j22;
+  const double determinant = ll * rr - lr_ * lr_;
+  gain = {(rr * lt - lr_ * rt) / determinant, (ll * rt - lr_ * lt) / determinant};
+  covariance = {rr / determinant, -lr_ / determinant, -lr_ / determinant, ll / determinant};
+}
+
 double MotionCheck::explained_rotation() const {
   RotationGain gain;
   if (!is_ok(rotation_gain(gain)) || !(tt_ > 0.0)) { return 0.0; }

@@ -21,7 +21,7 @@ struct JointBatchConfig {
   /// floor(quantile n + 0.5) of the sorted errors.
   double quantile = 0.99;
   MotionNeeds needs{};
-  double max_relative_std = 0.1;   ///< of radii and track width; above: refused
+  double max_relative_std = 0.1;  ///< of radii and track width; above: refused
   double max_yaw_std_rad = 0.2;
   static constexpr int kMaxRounds = 8;
   [[nodiscard]] constexpr bool valid() const {

@@ -4,6 +4,7 @@
 /// What a drive has shown so far, in constant memory, and which parameter it leaves undetermined.
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include "picolo/calibration/parameter.hpp"
@@ -56,6 +57,11 @@ class MotionCheck {
   [[nodiscard]] Refusal judge(const MotionNeeds& needs) const;
   /// Least squares of the rotation alone; `degenerate` as long as the wheels do not vary.
   Status rotation_gain(RotationGain& gain) const;
+  /// The same with a prior of the given information on each gain (1 / variance in units of the
+  /// rotation's noise), and the covariance for unit noise, row-major. Always determined.
+  /// Precondition: information > 0.
+  void gain_with_prior(const RotationGain& prior, double information, RotationGain& gain,
+                       std::array<double, 4>& covariance) const;
   /// Share of the rotation's variance that the wheels explain, 0..1.
   [[nodiscard]] double explained_rotation() const;
   [[nodiscard]] std::uint64_t samples() const { return samples_; }

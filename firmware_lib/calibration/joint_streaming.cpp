@@ -1,0 +1,297 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/calibration/joint_streaming.hpp"
+
+#include <algorithm>
+
+#include "arc.hpp"
+#include "drive_information.hpp"
+#include "joint_system.hpp"
+#include "picolo/core/math.hpp"
+#include "picolo/core/number_model.hpp"
+#include "picolo/geometry/angle.hpp"
+#include "picolo/solve/normal_least_squares.hpp"
+#include "quadratic.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+constexpr double kMedianToSigma = 1.4826;     // of |normal|
+constexpr double kMedianToRayleigh = 1.1774;  // sigma to median of a Rayleigh variable
+
+double magnitude(double x) {
+  return x < 0.0 ? -x : x;
+}
+
+struct Turns {
+  double left;
+  double right;
+};
+
+Turns turns_of(const MotionSample& sample) {
+  return {sample.duration_s * sample.left_radps, sample.duration_s * sample.right_radps};
+}
+
+/// One step of a running median: grows and shrinks by the same factor, so it rests where half of
+/// the values are above.
+void follow_median(double& scale, double value) {
+  constexpr double kStep = 0.04;
+  const double median = scale / kMedianToSigma;
+  scale *= value > median ? 1.0 + kStep : 1.0 / (1.0 + kStep);
+}
+
+/// J21, J22 of samples whose residual is at most `limit` from the gain so far; a small ridge picks
+/// the smallest gains when the wheels have not varied yet (which makes the wheels of a turn on the
+/// spot equal: the best guess there is).
+RotationGain ridge_gain(std::span<const MotionSample> samples, const RotationGain& before,
+                        double limit) {
+  double ll = 0.0, lr = 0.0, rr = 0.0, lt = 0.0, rt = 0.0;
+  for (const MotionSample& sample : samples) {
+    const Turns turn = turns_of(sample);
+    const double theta = sample.lidar_motion.theta_rad;
+    if (magnitude(theta - (before.j21 * turn.left + before.j22 * turn.right)) > limit) { continue; }
+    ll += turn.left * turn.left;
+    lr += turn.left * turn.right;
+    rr += turn.right * turn.right;
+    lt += turn.left * theta;
+    rt += turn.right * theta;
+  }
+  const double ridge = 1e-3 * (ll + rr);
+  const double determinant = (ll + ridge) * (rr + ridge) - lr * lr;
+  if (!(determinant > 0.0)) { return {}; }
+  return {((rr + ridge) * lt - lr * rt) / determinant, ((ll + ridge) * rt - lr * lt) / determinant};
+}
+
+double median_residual(std::span<const MotionSample> samples, const RotationGain& gain,
+                       std::span<double> work) {
+  for (std::size_t k = 0; k < samples.size(); ++k) {
+    const Turns turn = turns_of(samples[k]);
+    work[k] = magnitude(samples[k].lidar_motion.theta_rad -
+                        (gain.j21 * turn.left + gain.j22 * turn.right));
+  }
+  std::sort(work.begin(), work.end());
+  return work[work.size() / 2];
+}
+
+}  // namespace
+
+Status JointStreaming::add(const MotionSample& sample) {
+  const Pose2d& s = sample.lidar_motion;
+  if (!(sample.duration_s > 0.0) || !is_finite(sample.duration_s) ||
+      !is_finite(sample.left_radps) || !is_finite(sample.right_radps) || !is_finite(s.x_m) ||
+      !is_finite(s.y_m) || !is_finite(s.theta_rad)) {
+    return Status::invalid_argument;
+  }
+  if (samples_ < kWarmUp) { waiting_[static_cast<std::size_t>(samples_)] = sample; }
+  ++samples_;
+  if (samples_ == kWarmUp) {
+    warm_up();
+  } else if (samples_ > kWarmUp) {
+    consume(sample);
+  }
+  return Status::ok;
+}
+
+void JointStreaming::warm_up() {
+  std::array<double, kWarmUp> work{};
+  RotationGain gain = ridge_gain(waiting_, {}, 1e9);
+  double median = median_residual(waiting_, gain, work);
+  for (int round = 0; round < 4; ++round) {
+    gain = ridge_gain(waiting_, gain, 4.0 * kMedianToSigma * median + 1e-6);
+    median = median_residual(waiting_, gain, work);
+  }
+  reference_ = gain;
+  first_gain_ = gain;
+  scale_rotation_rad_ = std::max(1e-6, kMedianToSigma * median);
+  // While those that waited pass the gate, it stands where all of them together put it.
+  MotionCheck kept;
+  for (const MotionSample& sample : waiting_) {
+    const Turns turn = turns_of(sample);
+    const double error =
+        sample.lidar_motion.theta_rad - (gain.j21 * turn.left + gain.j22 * turn.right);
+    if (magnitude(error) <= 4.0 * scale_rotation_rad_) { kept.add(sample); }
+  }
+  follow_gain(kept);
+  double limit = 1e9;
+  for (int round = 0; round < 5; ++round) {
+    predictor_.refresh();
+    DisplacementPredictor next;
+    for (std::size_t k = 0; k < kWarmUp; ++k) {
+      const auto judged = predictor_.judge(gain_, waiting_[k]);
+      work[k] = hypotenuse(judged.x_m, judged.y_m);
+      if (work[k] <= limit) { next.add(gain_, waiting_[k]); }
+    }
+    predictor_ = next;
+    std::sort(work.begin(), work.end());
+    limit = 3.5 * work[kWarmUp / 2];
+  }
+  predictor_.refresh();
+  scale_translation_m_ = std::max(1e-6, work[kWarmUp / 2] / kMedianToRayleigh);
+  for (const MotionSample& sample : waiting_) { consume(sample); }
+  refresh();
+}
+
+void JointStreaming::consume(const MotionSample& sample) {
+  const bool good = passes(sample);
+  if (good) {
+    accumulate(sample);
+  } else {
+    ++rejected_;
+  }
+  if (samples_ > kWarmUp && samples_ % 4 == 0) { refresh(); }
+}
+
+bool JointStreaming::passes(const MotionSample& sample) {
+  const Turns turn = turns_of(sample);
+  const auto& c = gain_covariance_;
+  const double error =
+      wrap_angle(sample.lidar_motion.theta_rad - (gain_.j21 * turn.left + gain_.j22 * turn.right));
+  const double leverage = turn.left * turn.left * c[0] + 2.0 * turn.left * turn.right * c[1] +
+                          turn.right * turn.right * c[3];
+  const double spread = scale_rotation_rad_ * scale_rotation_rad_ * (1.0 + leverage);
+  bool good = !(error * error > config_.gate_rotation * spread);
+  follow_median(scale_rotation_rad_, magnitude(error) / square_root(1.0 + leverage));
+  gains_known_ =
+      leverage <
+      1.0;  // else the turn is news: neither predict displacements by it nor learn from them
+  if (!gains_known_) { return good; }
+  const auto judged = predictor_.judge(gain_, sample);
+  const double distance = hypotenuse(judged.x_m, judged.y_m) / square_root(1.0 + judged.leverage);
+  good = good && !(distance * distance >
+                   config_.gate_translation * scale_translation_m_ * scale_translation_m_);
+  follow_median(scale_translation_m_, distance / (kMedianToRayleigh * kMedianToSigma));
+  return good;
+}
+
+void JointStreaming::accumulate(const MotionSample& sample) {
+  check_.add(sample);
+  if (samples_ > kWarmUp && gains_known_) {
+    predictor_.add(gain_, sample);
+  }  // those that waited are in it already
+  const Turns turn = turns_of(sample);
+  const Quadratic o =
+      linear_form(reference_.j21 * turn.left + reference_.j22 * turn.right, turn.left, turn.right);
+  const Quadratic length =
+      linear_form(0.5 * (reference_.j22 * turn.right - reference_.j21 * turn.left),
+                  -0.5 * turn.left, 0.5 * turn.right);
+  const Arc arc = arc_of(o[0]);
+  const SinCos<double> sc = sin_cos(o[0]);
+  const Quadratic cosine = chain(o, sc.cosine, -sc.sine, -sc.cosine);
+  const Quadratic sine = chain(o, sc.sine, sc.cosine, -sc.sine);
+  const Quadratic zero{};
+  const Quadratic versine = linear_form(1.0, 0.0, 0.0) - cosine;
+  const Quadratic cx = (-1.0) * (length * chain(o, arc.along, arc.d_along, arc.dd_along));
+  const Quadratic cy = (-1.0) * (length * chain(o, arc.across, arc.d_across, arc.dd_across));
+  const Quadratic sx = linear_form(sample.lidar_motion.x_m, 0.0, 0.0);
+  const Quadratic sy = linear_form(sample.lidar_motion.y_m, 0.0, 0.0);
+  const std::array<Quadratic, 5> x{cx, versine, sine, sx, zero - sy};
+  const std::array<Quadratic, 5> y{cy, zero - sine, versine, sy, sx};
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      add_to(moments_[k], x[i] * x[j] + y[i] * y[j]);
+      ++k;
+    }
+  }
+  if (!solved_) { return; }
+  const DriveJacobian jacobian = lidar_motion_jacobian(drive_, sample);
+  constexpr double kNever = 1e150;
+  add_information(information_translation_, jacobian, {1.0, 1.0, kNever});
+  add_information(information_rotation_, jacobian, {kNever, kNever, 1.0});
+}
+
+Status JointStreaming::current(RotationGain& gain, DriveParameters& drive) const {
+  const Status status = check_.rotation_gain(gain);
+  if (!is_ok(status)) { return status; }
+  const double a = gain.j21 - reference_.j21;
+  const double b = gain.j22 - reference_.j22;
+  JointMatrix m{};
+  std::size_t k = 0;
+  for (std::size_t i = 0; i < 5; ++i) {
+    for (std::size_t j = 0; j <= i; ++j) {
+      m[5 * i + j] = evaluate(moments_[k], a, b);
+      m[5 * j + i] = m[5 * i + j];
+      ++k;
+    }
+  }
+  return solve_joint(m, gain, drive);
+}
+
+void JointStreaming::follow_gain(const MotionCheck& seen) {
+  constexpr double kPlausible =
+      0.5;  // rad of heading a rad of wheel: the gains' spread over all vehicles
+  const double share = scale_rotation_rad_ / kPlausible;
+  seen.gain_with_prior(first_gain_, share * share, gain_, gain_covariance_);
+}
+
+void JointStreaming::refresh() {
+  follow_gain(check_);
+  DriveParameters drive;
+  // Until turn and speed have both been seen, gains and lever arm are guesses: gate on rotation
+  // only, reference stays.
+  const bool varied =
+      check_.speed_share() > 1e-3 && check_.speed_share() < 0.999 && check_.arc_spread() > 1e-3;
+  predictor_.refresh();
+  RotationGain gain;
+  if (!varied || !is_ok(current(gain, drive))) { return; }
+  const double a = gain_.j21 - reference_.j21;
+  const double b = gain_.j22 - reference_.j22;
+  if (hypotenuse(a, b) > 0.002 * hypotenuse(gain_.j21, gain_.j22)) {
+    for (Quadratic& moment : moments_) { moment = shifted(moment, a, b); }
+    reference_ = gain_;
+  }
+  drive_ = drive;
+  solved_ = true;
+}
+
+Status JointStreaming::solve(JointReport& report) const {
+  report = JointReport{};
+  report.samples = samples_;
+  report.used = check_.samples();
+  if (samples_ < kWarmUp) {  // nothing has passed the gate: judge what waits
+    MotionCheck waiting;
+    for (std::size_t k = 0; k < samples_; ++k) { waiting.add(waiting_[k]); }
+    report.refusal = waiting.judge(config_.needs);
+    if (!report.refusal) {
+      report.refusal = {RefusalReason::too_little_data, Parameter::track_width};
+    }
+    return Status::degenerate;
+  }
+  report.refusal = check_.judge(config_.needs);
+  const auto refuse = [&](RefusalReason reason, Parameter parameter) {
+    if (!report.refusal) { report.refusal = {reason, parameter}; }
+    return Status::degenerate;
+  };
+  if (!is_ok(current(report.gain, report.drive)) || !solved_) {
+    return refuse(RefusalReason::numerically_singular, Parameter::track_width);
+  }
+  report.noise = {scale_translation_m_, scale_translation_m_, scale_rotation_rad_};
+  DriveMatrix information{};
+  for (std::size_t k = 0; k < 36; ++k) {
+    information[k] = information_translation_[k] / (scale_translation_m_ * scale_translation_m_) +
+                     information_rotation_[k] / (scale_rotation_rad_ * scale_rotation_rad_);
+  }
+  if (!is_ok(covariance_of(information, report.covariance, report.condition))) {
+    return refuse(RefusalReason::numerically_singular, Parameter::lidar_yaw);
+  }
+  report.inlier_covariance = report.covariance;
+  const DriveParameters& d = report.drive;
+  const double limits[6] = {config_.max_relative_std * d.radius_left_m,
+                            config_.max_relative_std * d.radius_right_m,
+                            config_.max_relative_std * d.track_m,
+                            config_.max_position_std_m,
+                            config_.max_position_std_m,
+                            config_.max_yaw_std_rad};
+  constexpr Parameter kOrder[6] = {Parameter::wheel_radius_left, Parameter::wheel_radius_right,
+                                   Parameter::track_width,       Parameter::lidar_x,
+                                   Parameter::lidar_y,           Parameter::lidar_yaw};
+  for (std::size_t k = 0; k < 6; ++k) {
+    if (!(report.covariance[7 * k] <= limits[k] * magnitude(limits[k]))) {
+      return refuse(RefusalReason::too_little_data, kOrder[k]);
+    }
+  }
+  return report.refusal ? Status::degenerate : Status::ok;
+}
+
+}  // namespace picolo::inline v0

@@ -13,14 +13,17 @@
 namespace picolo::inline v0 {
 
 struct ByteStoreGeometry {
-  std::size_t size = 0;     ///< bytes in all; a multiple of `sector`
-  std::size_t sector = 0;   ///< what `erase` erases
-  std::size_t granule = 1;  ///< `program` takes multiples of this, at multiples of this: 1, 4 or 8
+  std::size_t size = 0;    ///< bytes in all; a multiple of `sector`
+  std::size_t sector = 0;  ///< what `erase` erases
+  std::size_t granule =
+      1;  ///< `program` takes multiples of this, at multiples of this: 1, 2, 4, 8 or 16
 };
 
 /// NOR semantics: erased bytes read 0xFF; programming only clears bits; a granule is programmed
-/// once after an erase. Never blocks longer than the port states for one granule or one sector. All
-/// calls from one context.
+/// once after an erase (again: refused, or old AND new, never a set bit). Contents survive a reset.
+/// A loss of power leaves at most the granule or sector in work undefined. Never blocks longer than
+/// the port states for one granule or one sector. All calls from one context; empty spans are fine.
+/// Ports are held to this by conformance/byte_store.hpp.
 class ByteStore {
  public:
   [[nodiscard]] virtual ByteStoreGeometry geometry() const = 0;

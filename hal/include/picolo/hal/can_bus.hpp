@@ -18,9 +18,9 @@ struct CanFrame {
   StampSource source = StampSource::read;
   std::uint32_t id = 0;  ///< 11 bits, or 29 bits when `extended`
   bool extended = false;
-  bool remote = false;      ///< a request without data
-  std::uint8_t length = 0;  ///< 0..8
-  std::array<std::uint8_t, 8> data{};
+  bool remote = false;                 ///< a request without data
+  std::uint8_t length = 0;             ///< 0..8
+  std::array<std::uint8_t, 8> data{};  ///< beyond `length` unspecified
 };
 
 /// ISO 11898-1 fault confinement, plus what a port adds around it.
@@ -37,14 +37,15 @@ struct CanStatus {
 };
 
 /// One classic CAN controller. Never blocks; all calls from one context. Counters are never reset.
-/// Cost: each call is bounded by the port, at most one frame copied.
+/// Own frames are not received. Cost: each call is bounded by the port, at most one frame copied.
+/// Ports are held to this by conformance/can_bus.hpp.
 class CanBus {
  public:
-  /// The oldest waiting frame. `not_ready`: none waits. `disconnected`: the controller is gone or
-  /// down; may come back.
+  /// The oldest waiting frame; stamps never decrease. At least 20 frames may wait. `not_ready`:
+  /// none waits. `disconnected`: the controller is gone or down; may come back.
   virtual Result<CanFrame> receive() = 0;
-  /// Queues one frame. `full`: no room now, try in a later cycle. `invalid_argument`: length or id
-  /// out of range. `disconnected`: as above.
+  /// Queues one frame; stamp and source are ignored. `full`: no room now, or bus-off; try in a
+  /// later cycle. `invalid_argument`: length or id out of range. `disconnected`: as above.
   virtual Status transmit(const CanFrame& frame) = 0;
   [[nodiscard]] virtual CanStatus status() const = 0;
 

@@ -21,10 +21,12 @@ struct SerialRead {
 };
 
 /// One serial line of raw bytes, 8N1. Never blocks; all calls from one context.
+/// Ports are held to this by conformance/serial_port.hpp.
 class SerialPort {
  public:
-  /// Copies waiting bytes, oldest first, at most `buffer.size()`. `not_ready`: none wait.
-  /// `disconnected`: the device is gone; may come back.
+  /// Copies waiting bytes, oldest first, at most `buffer.size()`; stamps never decrease. At least
+  /// 256 bytes may wait. `not_ready`: none wait, or the buffer is empty. `disconnected`: the device
+  /// is gone; may come back.
   virtual Result<SerialRead> read(std::span<std::uint8_t> buffer) = 0;
   /// Queues bytes and returns how many were taken (may be fewer). `full`: none. `disconnected`: as
   /// above.

@@ -26,7 +26,6 @@ using inline3::Mover;
 using inline3::square;
 using inline3::sub;
 
-constexpr std::size_t kMaxNeighbours = 8;
 constexpr std::size_t kRingReach = 2;
 
 Vector3d anchor_m(VoxelKey anchor, float voxel_m) {
@@ -41,12 +40,6 @@ VoxelKey cube_of(const Vector3d& p, float voxel_m) {
   return {along(p.x), along(p.y), along(p.z)};
 }
 
-bool usable(const PoseSolveReport<float>& report) {
-  return report.outcome == SolveOutcome::converged ||
-         report.outcome == SolveOutcome::iteration_limit ||
-         report.outcome == SolveOutcome::degenerate;
-}
-
 }  // namespace
 
 LoamCore::LoamCore(const LoamStorage& storage, VoxelMapCore& edge_map, VoxelMapCore& surface_map,
@@ -55,7 +48,8 @@ LoamCore::LoamCore(const LoamStorage& storage, VoxelMapCore& edge_map, VoxelMapC
       edge_map_(edge_map),
       surface_map_(surface_map),
       config_(config),
-      solver_(config.solver),
+      scan_solver_(config.scan_solver),
+      map_matcher_(config.map_match, storage.planes, storage.lines),
       edges_(storage.edges),
       surfaces_(storage.surfaces),
       edge_index_(storage.edge_starts, storage.edge_order, storage.rings),
@@ -123,13 +117,6 @@ void LoamCore::predict() {
 }
 
 void LoamCore::begin_round(Stage stage) {
-  if (stage == Stage::map_match && round_ == 0) {
-    const VoxelKey anchor =
-        cube_of((map_T_last_ * to_f64(motion_)).translation_m, config_.map.voxel_m);
-    edge_map_.set_anchor(anchor);
-    surface_map_.set_anchor(anchor);
-    guess_ = local_pose();
-  }
   if (stage == Stage::scan_match) { guess_ = motion_; }
   cursor_ = 0;
   planes_ = 0;
@@ -166,52 +153,25 @@ void LoamCore::match_with_scan(const Feature& feature, bool edge) {
   ++planes_;
 }
 
-void LoamCore::match_with_map(const Feature& feature, bool edge) {
-  const Vector3f q = transform(guess_, feature.point_m);
-  std::array<Neighbour, kMaxNeighbours> storage;
-  const std::span<Neighbour> found = std::span{storage}.first(config_.neighbours);
-  const VoxelMapCore& map = edge ? edge_map_ : surface_map_;
-  if (map.nearest(q, config_.map_search_m, found) < found.size()) { return; }
-  if (edge) {
-    if (const auto line = line_through(found, config_.line_slenderness)) {
-      storage_.lines[lines_] = line_residual(feature.point_m, line->centre_m, line->direction);
-      ++lines_;
-    }
-  } else if (const auto plane = plane_through(found, config_.plane_thickness_m)) {
-    storage_.planes[planes_] = {feature.point_m, plane->centre_m, plane->direction};
-    ++planes_;
-  }
-}
-
-void LoamCore::match_slice() {
+void LoamCore::match_slice_with_scan() {
   const std::size_t all = edges_.size() + surfaces_.size();
   const std::size_t end = std::min(all, cursor_ + config_.slice_features);
-  const bool with_scan = stage_ == Stage::scan_match;
   for (; cursor_ < end; ++cursor_) {
     const bool edge = cursor_ < edges_.size();
-    const Feature& feature =
-        edge ? edges_.view()[cursor_] : surfaces_.view()[cursor_ - edges_.size()];
-    if (with_scan) {
-      match_with_scan(feature, edge);
-    } else {
-      match_with_map(feature, edge);
-    }
+    match_with_scan(edge ? edges_.view()[cursor_] : surfaces_.view()[cursor_ - edges_.size()],
+                    edge);
   }
-  if (cursor_ == all) { begin_solve(with_scan ? Stage::scan_solve : Stage::map_solve); }
-}
-
-void LoamCore::begin_solve(Stage stage) {
-  solver_.begin({storage_.planes.first(planes_), storage_.lines.first(lines_), guess_});
-  stage_ = stage;
+  if (cursor_ < all) { return; }
+  scan_solver_.begin({storage_.planes.first(planes_), storage_.lines.first(lines_), guess_});
+  stage_ = Stage::scan_solve;
 }
 
 void LoamCore::finish_scan_round() {
-  report_.scan_outcome = solver_.report().outcome;
-  if (usable(solver_.report())) { motion_ = solver_.report().pose; }
+  report_.scan_outcome = scan_solver_.report().outcome;
+  const bool usable = has_pose(report_.scan_outcome);
+  if (usable) { motion_ = scan_solver_.report().pose; }
   ++round_;
-  const bool more = round_ < config_.scan_rounds && usable(solver_.report());
-  if (!more) { round_ = 0; }
-  begin_round(more ? Stage::scan_match : Stage::undistort);
+  begin_round(usable && round_ < config_.scan_rounds ? Stage::scan_match : Stage::undistort);
 }
 
 void LoamCore::undistort_slice() {
@@ -223,28 +183,28 @@ void LoamCore::undistort_slice() {
                                                : storage_.surfaces[cursor_ - edges_.size()];
     feature.point_m = at_reference(feature);
   }
-  if (end == all) { begin_round(Stage::map_match); }
+  if (end == all) { begin_map_match(); }
 }
 
-void LoamCore::finish_map_round() {
-  const PoseSolveReport<float>& solved = solver_.report();
-  report_.map_outcome = solved.outcome;
-  report_.matched_edges = static_cast<std::uint32_t>(lines_);
-  report_.matched_surfaces = static_cast<std::uint32_t>(planes_);
-  const Vector3f shift = sub(solved.pose.translation_m, guess_.translation_m);
-  const float turn_rad =
-      rotation_angle_rad(compose(inverse(guess_.rotation), solved.pose.rotation));
-  const auto settled_m = static_cast<float>(config_.solver.converged_m);
-  const auto settled_rad = static_cast<float>(config_.solver.converged_rad);
-  if (usable(solved)) {
-    guess_ = solved.pose;
-    report_.covariance = solved.covariance;
-    report_.degenerate_directions = solved.degenerate_directions;
-  }
-  ++round_;
-  const bool settled = square(shift) < settled_m * settled_m && turn_rad < settled_rad;
-  const bool more = round_ < config_.map_rounds && usable(solved) && !settled;
-  begin_round(more ? Stage::map_match : Stage::insert);
+void LoamCore::begin_map_match() {
+  const Pose3d start = map_T_last_ * to_f64(motion_);
+  const VoxelKey anchor = cube_of(start.translation_m, config_.map.voxel_m);
+  edge_map_.set_anchor(anchor);
+  surface_map_.set_anchor(anchor);
+  guess_ = local_pose();
+  map_matcher_.begin(edge_map_, surface_map_, edges_.view(), surfaces_.view(), guess_);
+  begin_round(Stage::map_match);
+}
+
+void LoamCore::finish_map_match() {
+  const MapMatchReport& match = map_matcher_.report();
+  report_.map_outcome = match.solve.outcome;
+  report_.matched_edges = match.matched_edges;
+  report_.matched_surfaces = match.matched_surfaces;
+  report_.covariance = match.solve.covariance;
+  report_.degenerate_directions = match.solve.degenerate_directions;
+  guess_ = match.solve.pose;  // the start itself when there was no answer
+  begin_round(Stage::insert);
 }
 
 void LoamCore::insert_slice() {
@@ -286,14 +246,13 @@ void LoamCore::finish() {
 bool LoamCore::step() {
   switch (stage_) {
     case Stage::gather: predict(); break;
-    case Stage::scan_match:
-    case Stage::map_match: match_slice(); break;
+    case Stage::scan_match: match_slice_with_scan(); break;
     case Stage::scan_solve:
-      if (solver_.step()) { finish_scan_round(); }
+      if (scan_solver_.step()) { finish_scan_round(); }
       break;
     case Stage::undistort: undistort_slice(); break;
-    case Stage::map_solve:
-      if (solver_.step()) { finish_map_round(); }
+    case Stage::map_match:
+      if (map_matcher_.step()) { finish_map_match(); }
       break;
     case Stage::insert: insert_slice(); break;
     case Stage::index: finish(); break;

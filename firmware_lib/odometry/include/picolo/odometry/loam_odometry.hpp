@@ -14,6 +14,7 @@
 #include "picolo/core/status.hpp"
 #include "picolo/geometry/se3.hpp"
 #include "picolo/odometry/feature_index.hpp"
+#include "picolo/odometry/map_matcher.hpp"
 #include "picolo/odometry/scan_features.hpp"
 #include "picolo/odometry/voxel_map.hpp"
 #include "picolo/solve/pose_solver.hpp"
@@ -23,29 +24,24 @@ namespace picolo::inline v0 {
 struct LoamConfig {
   FeatureConfig features{};
   VoxelMapConfig map{};
+  MapMatcherConfig map_match{};
   bool compensated = false;    ///< the points are undistorted already
   float scan_period_s = 0.1F;  ///< of the motion that undistortion spreads over a scan
   int scan_rounds = 2;         ///< associations with the last scan; 0: constant velocity only
-  int map_rounds = 3;          ///< associations with the map
   float scan_search_m = 2.0F;
-  float map_search_m = 1.0F;
-  std::size_t neighbours = 5;  ///< of a map line or plane; at most kMaxNeighbours
-  float plane_thickness_m = 0.08F;
-  float line_slenderness = 50.0F;
   float insert_range_m = 60.0F;      ///< farther features do not enter the map
   float map_radius_m = 70.0F;        ///< cubes beyond are freed
   std::size_t slice_features = 256;  ///< work of one `step`
-  PoseSolverConfig solver{.plane_kernel = {.kind = RobustKind::geman_mcclure, .width = 1.0F},
-                          .line_kernel = {.kind = RobustKind::geman_mcclure, .width = 0.15F},
-                          .max_iterations = 5,
-                          .min_residuals = 30,
-                          .converged_m = 5e-4,
-                          .converged_rad = 2e-5};
+  PoseSolverConfig scan_solver{.plane_kernel = {.kind = RobustKind::geman_mcclure, .width = 1.0F},
+                               .line_kernel = {.kind = RobustKind::geman_mcclure, .width = 0.15F},
+                               .max_iterations = 5,
+                               .min_residuals = 30,
+                               .converged_m = 5e-4,
+                               .converged_rad = 2e-5};
   [[nodiscard]] constexpr bool valid() const {
-    return features.valid() && map.valid() && solver.valid() && scan_period_s > 0.0F &&
-           scan_rounds >= 0 && map_rounds > 0 && scan_search_m > 0.0F && map_search_m > 0.0F &&
-           map_search_m <= map.voxel_m && neighbours >= 3 && neighbours <= 8 &&
-           plane_thickness_m > 0.0F && line_slenderness > 1.0F && insert_range_m > 0.0F &&
+    return features.valid() && map.valid() && map_match.valid() && scan_solver.valid() &&
+           scan_period_s > 0.0F && scan_rounds >= 0 && scan_search_m > 0.0F &&
+           map_match.search_m <= map.voxel_m && insert_range_m > 0.0F &&
            map_radius_m > insert_range_m && slice_features > 0;
   }
 };
@@ -103,7 +99,6 @@ class LoamCore {
     scan_solve,
     undistort,
     map_match,
-    map_solve,
     insert,
     index,
     done
@@ -113,12 +108,11 @@ class LoamCore {
   [[nodiscard]] Pose3f local_pose() const;
   void begin_round(Stage stage);
   void predict();
-  void match_slice();
+  void match_slice_with_scan();
   void match_with_scan(const Feature& feature, bool edge);
-  void match_with_map(const Feature& feature, bool edge);
-  void begin_solve(Stage stage);
   void finish_scan_round();
-  void finish_map_round();
+  void begin_map_match();
+  void finish_map_match();
   void undistort_slice();
   void insert_slice();
   void finish();
@@ -127,7 +121,8 @@ class LoamCore {
   VoxelMapCore& edge_map_;
   VoxelMapCore& surface_map_;
   LoamConfig config_;
-  PoseSolver<float> solver_;
+  PoseSolver<float> scan_solver_;
+  MapMatcher map_matcher_;
   FeatureList edges_;
   FeatureList surfaces_;
   FeatureIndex edge_index_;

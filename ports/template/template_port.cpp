@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/template_port/template_port.hpp"
+#include "picolo/template/template_port.hpp"
 
 // Vendor headers belong here, never in the port's own headers.
 

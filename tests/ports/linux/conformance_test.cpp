@@ -9,10 +9,10 @@
 #include <memory>
 
 #include "can_pair.hpp"
-#include "picolo/conformance/byte_store.hpp"
-#include "picolo/conformance/can_bus.hpp"
-#include "picolo/conformance/clock.hpp"
-#include "picolo/conformance/serial_port.hpp"
+#include "picolo/hal/conformance/byte_store.hpp"
+#include "picolo/hal/conformance/can_bus.hpp"
+#include "picolo/hal/conformance/clock.hpp"
+#include "picolo/hal/conformance/serial_port.hpp"
 #include "picolo/linux/file_byte_store.hpp"
 #include "picolo/linux/linux_clock.hpp"
 #include "picolo/linux/socket_can_bus.hpp"

@@ -9,11 +9,11 @@
 #include <string>
 #include <vector>
 
-#include "picolo/conformance/byte_store.hpp"
-#include "picolo/conformance/can_bus.hpp"
-#include "picolo/conformance/clock.hpp"
-#include "picolo/conformance/serial_port.hpp"
-#include "picolo/conformance/watchdog.hpp"
+#include "picolo/hal/conformance/byte_store.hpp"
+#include "picolo/hal/conformance/can_bus.hpp"
+#include "picolo/hal/conformance/clock.hpp"
+#include "picolo/hal/conformance/serial_port.hpp"
+#include "picolo/hal/conformance/watchdog.hpp"
 #include "picolo/sim/sim_byte_store.hpp"
 #include "picolo/sim/sim_can_bus.hpp"
 #include "picolo/sim/sim_clock.hpp"

@@ -4,18 +4,18 @@
 // The empty port fails the conformance suite with messages that lead a porter through it, one
 // function after the other.
 
-#include "picolo/template_port/template_port.hpp"
+#include "picolo/template/template_port.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 #include <vector>
 
-#include "picolo/conformance/byte_store.hpp"
-#include "picolo/conformance/can_bus.hpp"
-#include "picolo/conformance/clock.hpp"
-#include "picolo/conformance/serial_port.hpp"
-#include "picolo/conformance/watchdog.hpp"
+#include "picolo/hal/conformance/byte_store.hpp"
+#include "picolo/hal/conformance/can_bus.hpp"
+#include "picolo/hal/conformance/clock.hpp"
+#include "picolo/hal/conformance/serial_port.hpp"
+#include "picolo/hal/conformance/watchdog.hpp"
 
 namespace picolo::template_port {
 namespace {

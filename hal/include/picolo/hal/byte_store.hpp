@@ -23,7 +23,7 @@ struct ByteStoreGeometry {
 /// once after an erase (again: refused, or old AND new, never a set bit). Contents survive a reset.
 /// A loss of power leaves at most the granule or sector in work undefined. Never blocks longer than
 /// the port states for one granule or one sector. All calls from one context; empty spans are fine.
-/// Ports are held to this by conformance/byte_store.hpp.
+/// Ports are held to this by hal/conformance/byte_store.hpp.
 class ByteStore {
  public:
   [[nodiscard]] virtual ByteStoreGeometry geometry() const = 0;

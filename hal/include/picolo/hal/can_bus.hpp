@@ -38,7 +38,7 @@ struct CanStatus {
 
 /// One classic CAN controller. Never blocks; all calls from one context. Counters are never reset.
 /// Own frames are not received. Cost: each call is bounded by the port, at most one frame copied.
-/// Ports are held to this by conformance/can_bus.hpp.
+/// Ports are held to this by hal/conformance/can_bus.hpp.
 class CanBus {
  public:
   /// The oldest waiting frame; stamps never decrease. At least 20 frames may wait. `not_ready`:

@@ -21,7 +21,7 @@ struct SerialRead {
 };
 
 /// One serial line of raw bytes, 8N1. Never blocks; all calls from one context.
-/// Ports are held to this by conformance/serial_port.hpp.
+/// Ports are held to this by hal/conformance/serial_port.hpp.
 class SerialPort {
  public:
   /// Copies waiting bytes, oldest first, at most `buffer.size()`; stamps never decrease. At least

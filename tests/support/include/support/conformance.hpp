@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-#include "picolo/conformance/checker.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 
 namespace picolo::test {
 

@@ -8,8 +8,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "picolo/conformance/checker.hpp"
 #include "picolo/hal/can_bus.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 
 namespace picolo::inline v0::conformance {
 

@@ -6,8 +6,8 @@
 
 #include <concepts>
 
-#include "picolo/conformance/checker.hpp"
 #include "picolo/hal/clock.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 #include "picolo/hal/watchdog.hpp"
 
 namespace picolo::inline v0::conformance {

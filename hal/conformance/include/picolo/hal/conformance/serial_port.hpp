@@ -10,7 +10,7 @@
 #include <cstdint>
 #include <span>
 
-#include "picolo/conformance/checker.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 #include "picolo/hal/serial_port.hpp"
 
 namespace picolo::inline v0::conformance {

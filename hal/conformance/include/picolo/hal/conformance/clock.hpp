@@ -7,8 +7,8 @@
 #include <concepts>
 #include <cstdint>
 
-#include "picolo/conformance/checker.hpp"
 #include "picolo/hal/clock.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 
 namespace picolo::inline v0::conformance {
 

@@ -11,8 +11,8 @@
 #include <limits>
 #include <span>
 
-#include "picolo/conformance/checker.hpp"
 #include "picolo/hal/byte_store.hpp"
+#include "picolo/hal/conformance/checker.hpp"
 
 namespace picolo::inline v0::conformance {
 

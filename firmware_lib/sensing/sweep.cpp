@@ -13,6 +13,7 @@ SweepAssemblerCore::SweepAssemblerCore(const SweepAssemblerConfig& config,
 
 void SweepAssemblerCore::begin(const RangeReading& reading) {
   in_sweep_ = true;
+  dropped_ = false;
   size_ = 0;
   sweeps_[filling_].stamp = reading.stamp;
 }
@@ -24,7 +25,6 @@ void SweepAssemblerCore::complete() {
   }
   if (ready_) { ++counters_.replaced; }
   Sweep& sweep = sweeps_[filling_];
-  sweep.last_stamp = last_stamp_;
   sweep.sequence = counters_.completed;
   sweep.returns = buffers_[filling_].first(size_);
   ++counters_.completed;
@@ -32,27 +32,37 @@ void SweepAssemblerCore::complete() {
   filling_ = 1 - filling_;
 }
 
+void SweepAssemblerCore::drop() {
+  if (!dropped_) { ++counters_.partial; }
+  dropped_ = true;
+  in_sweep_ = false;
+}
+
 void SweepAssemblerCore::add(const RangeReading& reading) {
-  if (in_sweep_ && reading.stamp < last_stamp_) {
-    ++counters_.out_of_order;
-    return;
-  }
-  if (in_sweep_ && reading.stamp - last_stamp_ > config_.max_gap) {
-    ++counters_.partial;
-    in_sweep_ = false;
+  if (in_sweep_) {
+    const Duration since_last = reading.stamp - last_stamp_;
+    if (since_last < Duration{0}) { ++counters_.out_of_order; }
+    // A clock that was set back would otherwise make every later reading out of order.
+    if (since_last > config_.max_gap || since_last < -config_.max_gap) { drop(); }
+    if (in_sweep_ && since_last < Duration{0} && !reading.starts_sweep) { return; }
   }
   if (reading.starts_sweep) {
     if (in_sweep_) { complete(); }
     begin(reading);
   }
-  if (!in_sweep_) { return; }
+  if (!in_sweep_) {
+    drop();
+    return;
+  }
   last_stamp_ = reading.stamp;
   if (size_ == buffers_[filling_].size()) {
     ++counters_.overflowed;
     return;
   }
+  Sweep& sweep = sweeps_[filling_];
   buffers_[filling_][size_] = {reading.range_m, reading.bearing_rad,
-                               to_seconds(reading.stamp - sweeps_[filling_].stamp)};
+                               to_seconds(reading.stamp - sweep.stamp)};
+  sweep.last_stamp = reading.stamp;
   ++size_;
 }
 

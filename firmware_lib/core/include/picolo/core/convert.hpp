@@ -9,7 +9,8 @@
 
 namespace picolo::inline v0 {
 
-/// Nearest integer, halves away from zero, clamped to [low, high]; NaN gives `low`.
+/// Nearest integer, halves away from zero, clamped to [low, high]; NaN gives `low`. Exact for every
+/// `value`. Precondition of all: low <= high.
 /// Cost: O(1).
 /// Context: any.
 [[nodiscard]] std::int32_t round_to_i32(float value, std::int32_t low, std::int32_t high);

@@ -41,8 +41,10 @@ class SpscRing {
     return true;
   }
 
+  /// Context: either end; exact there but for what the other end does meanwhile.
   [[nodiscard]] std::uint32_t size() const {
-    return head_.load(std::memory_order_acquire) - tail_.load(std::memory_order_acquire);
+    const std::uint32_t tail = tail_.load(std::memory_order_acquire);
+    return head_.load(std::memory_order_acquire) - tail;
   }
   [[nodiscard]] static constexpr std::uint32_t capacity() { return Capacity; }
   /// How many values `push` refused since construction; never reset.
@@ -61,7 +63,8 @@ class SpscRing {
 /// (`read` then returns false), so that it is bounded however badly it is preempted.
 /// Cost: O(sizeof(T)), wait-free on both sides.
 /// Context: `publish` from one context, `read` from any.
-template <typename T>
+/// `FirstSequence` is for tests, which cannot wait for the sequence to wrap.
+template <typename T, std::uint32_t FirstSequence = 0>
 class LatestValue {
   static_assert(std::is_trivially_copyable_v<T>);
   static constexpr std::size_t kWords = (sizeof(T) + 3) / 4;
@@ -77,13 +80,14 @@ class LatestValue {
     std::atomic_thread_fence(std::memory_order_release);
     for (std::size_t i = 0; i < kWords; ++i) { slot[i].store(words[i], std::memory_order_relaxed); }
     sequence_.store(sequence, std::memory_order_release);
+    published_.store(1, std::memory_order_release);  // the sequence alone may be 0 again after 2^32
   }
 
   /// False when nothing was published yet, or when the reader was overtaken `kAttempts` times.
   [[nodiscard]] bool read(T& value) const {
+    if (published_.load(std::memory_order_acquire) == 0) { return false; }
     for (int attempt = 0; attempt < kAttempts; ++attempt) {
       const std::uint32_t before = sequence_.load(std::memory_order_acquire);
-      if (before == 0) { return false; }
       std::array<std::uint32_t, kWords> words{};
       const auto& slot = slots_[before % kSlots];
       for (std::size_t i = 0; i < kWords; ++i) {
@@ -106,7 +110,8 @@ class LatestValue {
   static void copy_bytes(void* to, const void* from) { __builtin_memcpy(to, from, sizeof(T)); }
 
   std::array<std::array<std::atomic<std::uint32_t>, kWords>, kSlots> slots_{};
-  std::atomic<std::uint32_t> sequence_{0};
+  std::atomic<std::uint32_t> sequence_{FirstSequence};
+  std::atomic<std::uint32_t> published_{0};
 };
 
 }  // namespace picolo::inline v0

@@ -29,12 +29,13 @@ struct SweepCounters {
   std::uint32_t completed = 0;
   std::uint32_t replaced = 0;      ///< complete but not taken before the next one was complete
   std::uint32_t overflowed = 0;    ///< readings beyond the capacity, dropped
-  std::uint32_t out_of_order = 0;  ///< readings older than their predecessor, dropped
-  std::uint32_t partial = 0;  ///< revolutions dropped as incomplete (the first one, or after a gap)
+  std::uint32_t out_of_order = 0;  ///< readings older than their predecessor
+  std::uint32_t partial = 0;       ///< revolutions dropped: begun unseen, interrupted, too short
 };
 
 struct SweepAssemblerConfig {
-  /// A silence longer than this inside of a revolution drops the revolution.
+  /// A silence longer than this inside of a revolution drops the revolution, and so do stamps that
+  /// fall back by more than this.
   Duration max_gap = 50ms;
   /// A revolution with fewer readings than this is dropped as partial.
   int min_readings = 16;
@@ -49,8 +50,9 @@ class SweepAssemblerCore {
   SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,
                      std::span<RangeReturn> second);
 
-  /// Takes the next reading. `starts_sweep` completes the revolution before it. The first
-  /// revolution is dropped: nobody saw its beginning.
+  /// Takes the next reading. `starts_sweep` completes the revolution before it. A revolution whose
+  /// beginning was not seen is dropped, and so is a reading older than its predecessor; but one
+  /// that starts a sweep starts it whatever its stamp.
   void add(const RangeReading& reading);
   /// True when a complete sweep waits.
   [[nodiscard]] bool ready() const { return ready_; }
@@ -62,6 +64,7 @@ class SweepAssemblerCore {
  private:
   void begin(const RangeReading& reading);
   void complete();
+  void drop();
 
   SweepAssemblerConfig config_;
   std::array<std::span<RangeReturn>, 2> buffers_;
@@ -70,6 +73,7 @@ class SweepAssemblerCore {
   std::size_t size_ = 0;
   Timestamp last_stamp_{};
   bool in_sweep_ = false;
+  bool dropped_ = false;  // the revolution that passes now is counted as partial already
   bool ready_ = false;
   SweepCounters counters_{};
 };

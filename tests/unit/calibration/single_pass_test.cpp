@@ -158,7 +158,8 @@ TEST(JointStreaming, WhateverTheDriveBeginsWith) {
     legs.insert(legs.begin(), first);
     const JointReport report =
         streamed(test::drive(test::truth(), legs, {0.001, 0.001, 0.0005}, 7));
-    EXPECT_FALSE(report.refusal) << to_string(report.refusal.reason) << ' ' << to_string(report.refusal.parameter)
+    EXPECT_FALSE(report.refusal) << to_string(report.refusal.reason) << ' '
+                                 << to_string(report.refusal.parameter)
                                  << " used " << report.used << " of " << report.samples;
     const auto t = values(test::truth());
     const auto found = values(report.drive);

@@ -159,8 +159,8 @@ TEST(JointStreaming, WhateverTheDriveBeginsWith) {
     const JointReport report =
         streamed(test::drive(test::truth(), legs, {0.001, 0.001, 0.0005}, 7));
     EXPECT_FALSE(report.refusal) << to_string(report.refusal.reason) << ' '
-                                 << to_string(report.refusal.parameter)
-                                 << " used " << report.used << " of " << report.samples;
+                                 << to_string(report.refusal.parameter) << " used " << report.used
+                                 << " of " << report.samples;
     const auto t = values(test::truth());
     const auto found = values(report.drive);
     for (std::size_t k = 0; k < 6; ++k) {

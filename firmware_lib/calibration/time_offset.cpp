@@ -1,0 +1,179 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/calibration/time_offset.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/math.hpp"
+#include "picolo/core/number_model.hpp"
+#include "picolo/solve/normal_least_squares.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+double magnitude(double x) {
+  return x < 0.0 ? -x : x;
+}
+
+}  // namespace
+
+TimeOffsetCore::TimeOffsetCore(const TimeOffsetConfig& config, std::span<LagSums> lags,
+                               std::span<WheelAngles> history, std::span<RotationInterval> waiting)
+    : config_(config), lags_(lags), history_(history), waiting_(waiting) {}
+
+double TimeOffsetCore::lag_s(std::size_t index) const {
+  const double half = static_cast<double>(lags_.size() / 2);
+  return config_.max_offset_s * (static_cast<double>(index) - half) / half;
+}
+
+const WheelAngles& TimeOffsetCore::by_age(std::size_t index) const {
+  return history_[(next_ + history_.size() - size_ + index) % history_.size()];
+}
+
+/// Linear between the samples around the stamp. Precondition: inside of the history.
+WheelAngles TimeOffsetCore::at(double stamp_s) const {
+  std::size_t low = 0;
+  std::size_t high = size_ - 1;
+  while (high - low > 1) {
+    const std::size_t middle = (low + high) / 2;
+    (by_age(middle).stamp_s <= stamp_s ? low : high) = middle;
+  }
+  const WheelAngles& a = by_age(low);
+  const WheelAngles& b = by_age(high);
+  const double share = (stamp_s - a.stamp_s) / (b.stamp_s - a.stamp_s);
+  return {stamp_s, a.left_rad + share * (b.left_rad - a.left_rad),
+          a.right_rad + share * (b.right_rad - a.right_rad)};
+}
+
+Status TimeOffsetCore::add_wheels(const WheelAngles& angles) {
+  if (!is_finite(angles.stamp_s) || !is_finite(angles.left_rad) || !is_finite(angles.right_rad)) {
+    return Status::invalid_argument;
+  }
+  if (size_ > 0 && !(angles.stamp_s > by_age(size_ - 1).stamp_s)) { return Status::out_of_range; }
+  // What waits must be served before its past is overwritten.
+  drain();
+  history_[next_] = angles;
+  next_ = (next_ + 1) % history_.size();
+  size_ = std::min(size_ + 1, history_.size());
+  drain();
+  return Status::ok;
+}
+
+Status TimeOffsetCore::add_rotation(double begin_s, double end_s, double theta_rad) {
+  if (!is_finite(begin_s) || !is_finite(end_s) || !is_finite(theta_rad) || !(end_s > begin_s)) {
+    return Status::invalid_argument;
+  }
+  if (waiting_size_ == waiting_.size()) {
+    ++dropped_;
+    return Status::full;
+  }
+  waiting_[(waiting_first_ + waiting_size_) % waiting_.size()] = {begin_s, end_s, theta_rad};
+  ++waiting_size_;
+  drain();
+  return Status::ok;
+}
+
+void TimeOffsetCore::drain() {
+  while (waiting_size_ > 0 && size_ >= 2) {
+    const RotationInterval& oldest = waiting_[waiting_first_];
+    if (oldest.end_s + config_.max_offset_s > by_age(size_ - 1).stamp_s) { return; }
+    if (oldest.begin_s - config_.max_offset_s < by_age(0).stamp_s) {
+      ++dropped_;
+    } else {
+      consume(oldest);
+    }
+    waiting_first_ = (waiting_first_ + 1) % waiting_.size();
+    --waiting_size_;
+  }
+}
+
+void TimeOffsetCore::consume(const RotationInterval& interval) {
+  const double theta = interval.theta_rad;
+  const double duration = interval.end_s - interval.begin_s;
+  for (std::size_t k = 0; k < lags_.size(); ++k) {
+    const WheelAngles begin = at(interval.begin_s - lag_s(k));
+    const WheelAngles end = at(interval.end_s - lag_s(k));
+    const double left = end.left_rad - begin.left_rad;
+    const double right = end.right_rad - begin.right_rad;
+    LagSums& sums = lags_[k];
+    sums.ll += left * left;
+    sums.lr += left * right;
+    sums.rr += right * right;
+    sums.lt += left * theta;
+    sums.rt += right * theta;
+    sums.ld += left * duration;
+    sums.rd += right * duration;
+  }
+  tt_ += theta * theta;
+  td_ += theta * duration;
+  dd_ += duration * duration;
+  ++intervals_;
+}
+
+TimeOffsetCore::Fit TimeOffsetCore::fit(std::size_t lag) const {
+  const LagSums& s = lags_[lag];
+  // A ridge of a millionth keeps wheels that never differ (a straight drive) solvable; it does not
+  // move a proper fit.
+  const double ridge = 1e-6 * (s.ll + s.rr) + 1e-12;
+  const std::array<double, 9> m{s.ll + ridge, s.lr, s.ld, s.lr,       s.rr + ridge,
+                                s.rd,         s.ld, s.rd, dd_ + 1e-12};
+  const std::array<double, 3> right{s.lt, s.rt, td_};
+  std::array<double, 3> x{};
+  if (!is_ok(solve_symmetric(m, right, x))) { return {tt_, 0.0, 0.0, 0.0}; }
+  return {tt_ - (x[0] * s.lt + x[1] * s.rt + x[2] * td_), x[0], x[1], x[2]};
+}
+
+Status TimeOffsetCore::solve(TimeOffsetReport& report) const {
+  report = TimeOffsetReport{};
+  report.intervals = intervals_;
+  const auto refuse = [&](RefusalReason reason) {
+    report.refusal = {reason, config_.parameter};
+    return Status::degenerate;
+  };
+  if (intervals_ < config_.min_intervals) { return refuse(RefusalReason::too_little_data); }
+  std::size_t best = 0;
+  Fit least = fit(0);
+  for (std::size_t k = 1; k < lags_.size(); ++k) {
+    const Fit candidate = fit(k);
+    if (candidate.squares < least.squares) {
+      best = k;
+      least = candidate;
+    }
+  }
+  const double n = static_cast<double>(intervals_);
+  const double around_drift = tt_ - td_ * td_ / dd_;  // what a constant rate leaves to be explained
+  report.explained = around_drift > 0.0 ? 1.0 - least.squares / around_drift : 0.0;
+  report.noise_rad = square_root(std::max(0.0, least.squares) / std::max(1.0, n - 4.0));
+  report.j21 = least.j21;
+  report.j22 = least.j22;
+  report.drift_radps = least.drift;
+  const std::size_t last = lags_.size() - 1;
+  if (best < 2 || best + 2 > last) { return refuse(RefusalReason::constant_velocity); }
+  // Least squares parabola through five lags: y = a k^2 + b k + c.
+  double even = 0.0;
+  double odd = 0.0;
+  for (int k = -2; k <= 2; ++k) {
+    const double y = fit(best + static_cast<std::size_t>(k + 2) - 2).squares;
+    even += (k * k - 2) * y;
+    odd += k * y;
+  }
+  const double curvature = even / 14.0 * 2.0;  // second derivative by the lag's index
+  const double slope = odd / 10.0;
+  const double step = lag_s(1) - lag_s(0);
+  if (!(curvature > 0.0)) { return refuse(RefusalReason::constant_velocity); }
+  const double shift = -slope / curvature;
+  report.offset_s.value = lag_s(best) + step * std::min(1.0, std::max(-1.0, shift));
+  // Residual squares grow by noise^2 at one standard deviation: variance = 2 noise^2 / (d2 squares
+  // / d offset^2).
+  report.offset_s.std = report.noise_rad * step * square_root(2.0 / curvature);
+  if (!(report.offset_s.std <= config_.max_std_s)) {
+    return refuse(RefusalReason::constant_velocity);
+  }
+  if (!(report.explained >= config_.min_explained)) { return refuse(RefusalReason::inconsistent); }
+  return magnitude(report.offset_s.value) <= config_.max_offset_s
+             ? Status::ok
+             : refuse(RefusalReason::constant_velocity);
+}
+
+}  // namespace picolo::inline v0

@@ -4,7 +4,9 @@
 #include "picolo/calibration/time_offset.hpp"
 
 #include <algorithm>
+#include <limits>
 
+#include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/solve/normal_least_squares.hpp"
@@ -88,7 +90,58 @@ void TimeOffsetCore::drain() {
   }
 }
 
+/// True when no lag near the best one explains the interval: a slipping wheel or a wrong match, not
+/// a clock. Judged only once the wheels explain most of the rotation.
+bool TimeOffsetCore::is_outlier(const RotationInterval& interval) {
+  if (gate_explained_ < 0.5) { return false; }
+  const double step = lag_s(1) - lag_s(0);
+  const auto reach = static_cast<std::size_t>(floor_to_i32(0.1 / step, 1, 1 << 20));
+  const std::size_t first = gate_lag_ > reach ? gate_lag_ - reach : 0;
+  const std::size_t last = std::min(gate_lag_ + reach, lags_.size() - 1);
+  double nearest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = first; k <= last; ++k) {
+    const WheelAngles begin = at(interval.begin_s - lag_s(k));
+    const WheelAngles end = at(interval.end_s - lag_s(k));
+    const double expected = gate_fit_.j21 * (end.left_rad - begin.left_rad) +
+                            gate_fit_.j22 * (end.right_rad - begin.right_rad) +
+                            gate_fit_.drift * (interval.end_s - interval.begin_s);
+    const double error = magnitude(interval.theta_rad - expected);
+    nearest = std::min(nearest, error);
+    if (k == gate_lag_) { gate_median_ *= error > gate_median_ ? 1.04 : 1.0 / 1.04; }
+  }
+  return nearest > 6.0 * gate_median_;
+}
+
+void TimeOffsetCore::follow_gate() {
+  if (intervals_ < config_.min_intervals || intervals_ % 8 != 0) { return; }
+  const double noise_before = gate_median_;
+  gate_lag_ = best_lag(gate_fit_);
+  const double around_drift = tt_ - td_ * td_ / dd_;
+  gate_explained_ = around_drift > 0.0 ? 1.0 - gate_fit_.squares / around_drift : 0.0;
+  if (noise_before == 0.0) {
+    gate_median_ =
+        square_root(std::max(1e-12, gate_fit_.squares / static_cast<double>(intervals_)));
+  }
+}
+
+std::size_t TimeOffsetCore::best_lag(Fit& least) const {
+  std::size_t best = 0;
+  least = fit(0);
+  for (std::size_t k = 1; k < lags_.size(); ++k) {
+    const Fit candidate = fit(k);
+    if (candidate.squares < least.squares) {
+      best = k;
+      least = candidate;
+    }
+  }
+  return best;
+}
+
 void TimeOffsetCore::consume(const RotationInterval& interval) {
+  if (is_outlier(interval)) {
+    ++rejected_;
+    return;
+  }
   const double theta = interval.theta_rad;
   const double duration = interval.end_s - interval.begin_s;
   for (std::size_t k = 0; k < lags_.size(); ++k) {
@@ -109,6 +162,7 @@ void TimeOffsetCore::consume(const RotationInterval& interval) {
   td_ += theta * duration;
   dd_ += duration * duration;
   ++intervals_;
+  follow_gate();
 }
 
 TimeOffsetCore::Fit TimeOffsetCore::fit(std::size_t lag) const {
@@ -127,20 +181,14 @@ TimeOffsetCore::Fit TimeOffsetCore::fit(std::size_t lag) const {
 Status TimeOffsetCore::solve(TimeOffsetReport& report) const {
   report = TimeOffsetReport{};
   report.intervals = intervals_;
+  report.rejected = rejected_;
   const auto refuse = [&](RefusalReason reason) {
     report.refusal = {reason, config_.parameter};
     return Status::degenerate;
   };
   if (intervals_ < config_.min_intervals) { return refuse(RefusalReason::too_little_data); }
-  std::size_t best = 0;
-  Fit least = fit(0);
-  for (std::size_t k = 1; k < lags_.size(); ++k) {
-    const Fit candidate = fit(k);
-    if (candidate.squares < least.squares) {
-      best = k;
-      least = candidate;
-    }
-  }
+  Fit least;
+  const std::size_t best = best_lag(least);
   const double n = static_cast<double>(intervals_);
   const double around_drift = tt_ - td_ * td_ / dd_;  // what a constant rate leaves to be explained
   report.explained = around_drift > 0.0 ? 1.0 - least.squares / around_drift : 0.0;

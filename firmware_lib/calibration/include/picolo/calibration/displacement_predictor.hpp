@@ -14,9 +14,8 @@ namespace picolo::inline v0 {
 
 /// s = C n + (R(o) - 1) m: n is the mean wheel radius turned by the mounting yaw, m the lever arm
 /// in lidar axes; n and m are free, which gives up the constraint between them but is determined as
-/// far as the drive has gone: on the spot m alone.
-/// Cost of `add`: one sin_cos and 40 multiplications; of `refresh`: a 4x4 inverse.
-/// Context: one at a time.
+/// far as the drive has gone: on the spot m alone. Cost of `add`: one sin_cos and 40
+/// multiplications; of `refresh`: a 4x4 inverse. Context: one at a time.
 class DisplacementPredictor {
  public:
   void reset() { system_.reset(); }

@@ -38,9 +38,10 @@ struct TimeOffsetReport {
   double j21 = 0.0;
   double j22 = 0.0;
   double drift_radps = 0.0;
-  double explained = 0.0;  ///< share of the rotation explained at the best lag
-  double noise_rad = 0.0;  ///< of one interval
-  std::uint64_t intervals = 0;
+  double explained = 0.0;       ///< share of the rotation explained at the best lag
+  double noise_rad = 0.0;       ///< of one interval
+  std::uint64_t intervals = 0;  ///< used
+  std::uint64_t rejected = 0;   ///< no lag explains them: slip, or a wrong match
   Refusal refusal{};
 };
 
@@ -94,6 +95,9 @@ class TimeOffsetCore {
   [[nodiscard]] const WheelAngles& by_age(std::size_t index) const;
   [[nodiscard]] WheelAngles at(double stamp_s) const;
   [[nodiscard]] Fit fit(std::size_t lag) const;
+  [[nodiscard]] std::size_t best_lag(Fit& least) const;
+  [[nodiscard]] bool is_outlier(const RotationInterval& interval);
+  void follow_gate();
   void consume(const RotationInterval& interval);
   void drain();
 
@@ -108,6 +112,11 @@ class TimeOffsetCore {
   double tt_ = 0.0, td_ = 0.0, dd_ = 0.0;
   std::uint64_t intervals_ = 0;
   std::uint64_t dropped_ = 0;
+  std::uint64_t rejected_ = 0;
+  Fit gate_fit_{};
+  std::size_t gate_lag_ = 0;
+  double gate_explained_ = 0.0;
+  double gate_median_ = 0.0;
 };
 
 /// Storage: 56 bytes a lag, 24 a wheel sample, 24 a waiting interval. History must span 2

@@ -1,0 +1,123 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// Scan to scan by point-to-line ICP (Censi 2008, "An ICP variant using a point-to-line metric"),
+/// trimmed: quadratic convergence where point-to-point crawls along walls.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "picolo/matching/match_report.hpp"
+#include "picolo/solve/normal_equations.hpp"
+
+namespace picolo::inline v0 {
+
+struct PlIcpConfig {
+  int max_iterations = 30;
+  int min_pairs = 30;
+  float max_pair_m = 0.4F;         ///< points further from the reference have no partner
+  float max_segment_m = 0.3F;      ///< neighbours of the reference further apart are no line...
+  float max_segment_share = 0.1F;  ///< ... unless closer than this share of their range
+  float keep_share = 0.85F;        ///< of the pairs, those with the smallest distance to their line
+  int max_candidates = 60;         ///< reference points looked at on each side of a bearing
+  float converged_m = 1e-4F;       ///< stop when the step is below both
+  float converged_rad = 1e-4F;
+  float max_total_m = 1.0F;  ///< from the start; beyond: step_limit
+  float max_total_rad = 0.8F;
+  float max_condition = 1000.0F;
+  float sigma_m = 0.02F;  ///< of one distance to a line, at least; larger when the residuals are
+  [[nodiscard]] constexpr bool valid() const {
+    return max_iterations > 0 && min_pairs >= 3 && max_pair_m > 0.0F && max_segment_m > 0.0F &&
+           max_segment_share >= 0.0F && keep_share > 0.0F && keep_share <= 1.0F &&
+           max_candidates > 0 && converged_m > 0.0F && converged_rad > 0.0F && max_total_m > 0.0F &&
+           max_total_rad > 0.0F && max_condition > 1.0F && sigma_m > 0.0F;
+  }
+};
+static_assert(PlIcpConfig{}.valid());
+
+/// One scan point and the line it should lie on.
+struct LinePair {
+  std::uint16_t point = 0;
+  Point2f normal{};         ///< unit, in the reference frame
+  float distance_m = 0.0F;  ///< of the transformed point to the line, signed
+};
+
+/// Working memory: one element a reference point, and one a scan point.
+struct PlIcpStorage {
+  std::span<std::uint16_t> by_bearing;
+  std::span<float> bearing_rad;
+  std::span<LinePair> pairs;
+  std::span<float> sorted_m;
+};
+
+/// Same calls and report as the matchers on maps; poses are in the frame of the reference scan,
+/// whose origin must be the sensor (partners are looked for by bearing). The request's prior is not
+/// used. Equal distances: the lower index. Cost: an iteration O(scan points * max_candidates), one
+/// arc tangent a point. Context: cycle only.
+class PlIcpMatcherCore {
+ public:
+  PlIcpMatcherCore(const PlIcpConfig& config, const PlIcpStorage& storage)
+      : config_(config), storage_(storage) {}
+
+  /// `reference` must stay valid until the report. Points beyond the storage are left out.
+  void begin(const PointsView& reference, const MatchRequest& request);
+  /// One iteration: partners, trimming, one Gauss-Newton step. True when the report is final.
+  bool step();
+  [[nodiscard]] const MatchReport& report() const { return report_; }
+  [[nodiscard]] bool done() const { return done_; }
+  [[nodiscard]] MatchReport match(const PointsView& reference, const MatchRequest& request);
+
+ private:
+  struct Partner {
+    std::size_t position = 0;  // in the order of bearing
+    float squared_m2 = 0.0F;
+    bool found = false;
+  };
+  [[nodiscard]] Point2f reference_at(std::size_t position) const;
+  [[nodiscard]] Partner nearest(const Point2f& p) const;
+  [[nodiscard]] bool line_near(const Partner& partner, const Point2f& p, LinePair& pair) const;
+  void find_pairs();
+  [[nodiscard]] float trim_limit();
+  [[nodiscard]] NormalEquations3 linearise(float limit_m, float& mean_squares, int& used) const;
+  bool finish(MatchOutcome outcome);
+
+  PlIcpConfig config_;
+  PlIcpStorage storage_;
+  PointsView reference_{};
+  MatchRequest request_{};
+  MatchReport report_{};
+  std::size_t reference_count_ = 0;
+  std::size_t scan_count_ = 0;
+  std::size_t pair_count_ = 0;
+  bool done_ = true;
+};
+
+/// Storage: 26 bytes a point.
+template <std::size_t Capacity>
+class PlIcpMatcher {
+  static_assert(Capacity > 0 && Capacity < 65536);
+
+ public:
+  explicit PlIcpMatcher(const PlIcpConfig& config = {})
+      : core_(config, {by_bearing_, bearing_rad_, pairs_, sorted_m_}) {}
+  PlIcpMatcher(const PlIcpMatcher&) = delete;
+  PlIcpMatcher& operator=(const PlIcpMatcher&) = delete;
+  ~PlIcpMatcher() = default;
+
+  [[nodiscard]] PlIcpMatcherCore& core() { return core_; }
+  [[nodiscard]] MatchReport match(const PointsView& reference, const MatchRequest& request) {
+    return core_.match(reference, request);
+  }
+
+ private:
+  std::array<std::uint16_t, Capacity> by_bearing_{};
+  std::array<float, Capacity> bearing_rad_{};
+  std::array<LinePair, Capacity> pairs_{};
+  std::array<float, Capacity> sorted_m_{};
+  PlIcpMatcherCore core_;
+};
+
+}  // namespace picolo::inline v0

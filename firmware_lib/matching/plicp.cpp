@@ -1,0 +1,227 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/matching/plicp.hpp"
+
+#include <algorithm>
+
+#include "picolo/core/convert.hpp"
+#include "pose_steps.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+float square(float x) {
+  return x * x;
+}
+
+float magnitude(float x) {
+  return x < 0.0F ? -x : x;
+}
+
+float squared_distance(const Point2f& a, const Point2f& b) {
+  return square(a.x_m - b.x_m) + square(a.y_m - b.y_m);
+}
+
+}  // namespace
+
+void PlIcpMatcherCore::begin(const PointsView& reference, const MatchRequest& request) {
+  reference_ = reference;
+  request_ = request;
+  report_ = MatchReport{};
+  report_.pose = request.start;
+  reference_count_ = std::min(reference.size(), storage_.by_bearing.size());
+  scan_count_ = std::min(request.points.size(), storage_.pairs.size());
+  done_ = false;
+  const std::span<std::uint16_t> order = storage_.by_bearing.first(reference_count_);
+  // Bearings by original index first: the sort key.
+  for (std::size_t k = 0; k < reference_count_; ++k) {
+    order[k] = static_cast<std::uint16_t>(k);
+    storage_.sorted_m[k] = arc_tangent2(reference.y_m[k], reference.x_m[k]);
+  }
+  const std::span<const float> key = storage_.sorted_m;
+  std::sort(order.begin(), order.end(), [key](std::uint16_t a, std::uint16_t b) {
+    return key[a] < key[b] || (key[a] == key[b] && a < b);
+  });
+  for (std::size_t k = 0; k < reference_count_; ++k) { storage_.bearing_rad[k] = key[order[k]]; }
+  const auto needed = static_cast<std::size_t>(config_.min_pairs);
+  if (reference_count_ < needed || scan_count_ < needed) {
+    static_cast<void>(finish(MatchOutcome::too_few_points));
+  }
+}
+
+Point2f PlIcpMatcherCore::reference_at(std::size_t position) const {
+  const std::size_t index = storage_.by_bearing[position];
+  return {reference_.x_m[index], reference_.y_m[index]};
+}
+
+/// Walks both ways from the point's bearing. No reference point at an angle d away is nearer than r
+/// sin d, so a side ends there.
+PlIcpMatcherCore::Partner PlIcpMatcherCore::nearest(const Point2f& p) const {
+  const float bearing = arc_tangent2(p.y_m, p.x_m);
+  const float range = hypotenuse(p.x_m, p.y_m);
+  const std::span<const float> bearings = storage_.bearing_rad.first(reference_count_);
+  const auto middle = static_cast<std::size_t>(
+      std::lower_bound(bearings.begin(), bearings.end(), bearing) - bearings.begin());
+  Partner best;
+  best.squared_m2 = square(config_.max_pair_m);
+  const auto look = [&](std::size_t position) {
+    const float angle = magnitude(wrap_angle(bearings[position] - bearing));
+    // sin d >= 2 d / pi below a right angle
+    if (angle < 1.5F && square(range * angle * 0.6366F) > best.squared_m2) { return false; }
+    const float squared = squared_distance(reference_at(position), p);
+    if (squared < best.squared_m2) { best = {position, squared, true}; }
+    return true;
+  };
+  const auto candidates = static_cast<std::size_t>(config_.max_candidates);
+  const std::size_t most = std::min(candidates, reference_count_ / 2);
+  std::size_t up = middle < reference_count_ ? middle : 0;
+  for (std::size_t k = 0; k < most && look(up); ++k) {
+    up = up + 1 < reference_count_ ? up + 1 : 0;
+  }
+  std::size_t down = middle > 0 ? middle - 1 : reference_count_ - 1;
+  for (std::size_t k = 0; k < most && look(down); ++k) {
+    down = down > 0 ? down - 1 : reference_count_ - 1;
+  }
+  return best;
+}
+
+/// The line through the partner and that of its two neighbours which is nearer to the point.
+bool PlIcpMatcherCore::line_near(const Partner& partner, const Point2f& p, LinePair& pair) const {
+  const Point2f q = reference_at(partner.position);
+  const float limit =
+      square(std::max(config_.max_segment_m, config_.max_segment_share * hypotenuse(q.x_m, q.y_m)));
+  float nearest_squared = 0.0F;
+  Point2f other{};
+  bool found = false;
+  const std::size_t neighbours[2] = {
+      partner.position > 0 ? partner.position - 1 : reference_count_ - 1,
+      partner.position + 1 < reference_count_ ? partner.position + 1 : 0};
+  for (const std::size_t position : neighbours) {
+    const Point2f candidate = reference_at(position);
+    const float along = squared_distance(candidate, q);
+    const float squared = squared_distance(candidate, p);
+    if (along > limit || along < 1e-10F || (found && !(squared < nearest_squared))) { continue; }
+    other = candidate;
+    nearest_squared = squared;
+    found = true;
+  }
+  if (!found) { return false; }
+  const float length = hypotenuse(other.x_m - q.x_m, other.y_m - q.y_m);
+  pair.normal = {(q.y_m - other.y_m) / length, (other.x_m - q.x_m) / length};
+  pair.distance_m = pair.normal.x_m * (p.x_m - q.x_m) + pair.normal.y_m * (p.y_m - q.y_m);
+  return true;
+}
+
+void PlIcpMatcherCore::find_pairs() {
+  const SinCos<float> turn = sin_cos(report_.pose.theta_rad);
+  pair_count_ = 0;
+  for (std::size_t k = 0; k < scan_count_; ++k) {
+    const float x = request_.points.x_m[k];
+    const float y = request_.points.y_m[k];
+    const Point2f p{report_.pose.x_m + (turn.cosine * x - turn.sine * y),
+                    report_.pose.y_m + (turn.sine * x + turn.cosine * y)};
+    const Partner partner = nearest(p);
+    LinePair pair;
+    if (!partner.found || !line_near(partner, p, pair)) { continue; }
+    pair.point = static_cast<std::uint16_t>(k);
+    storage_.pairs[pair_count_] = pair;
+    ++pair_count_;
+  }
+}
+
+float PlIcpMatcherCore::trim_limit() {
+  const std::span<float> sorted = storage_.sorted_m.first(pair_count_);
+  for (std::size_t k = 0; k < pair_count_; ++k) {
+    sorted[k] = magnitude(storage_.pairs[k].distance_m);
+  }
+  const auto count = static_cast<std::int32_t>(pair_count_);
+  const std::int32_t kept = floor_to_i32(config_.keep_share * static_cast<float>(count), 1, count);
+  const auto last = sorted.begin() + (kept - 1);
+  std::nth_element(sorted.begin(), last, sorted.end());
+  return *last;
+}
+
+NormalEquations3 PlIcpMatcherCore::linearise(float limit_m, float& mean_squares, int& used) const {
+  const SinCos<float> turn = sin_cos(report_.pose.theta_rad);
+  NormalEquations3 system;
+  float squares = 0.0F;
+  used = 0;
+  for (const LinePair& pair : storage_.pairs.first(pair_count_)) {
+    if (magnitude(pair.distance_m) > limit_m) { continue; }
+    const float x = request_.points.x_m[pair.point];
+    const float y = request_.points.y_m[pair.point];
+    const float j[3] = {pair.normal.x_m, pair.normal.y_m,
+                        pair.normal.y_m * (turn.cosine * x - turn.sine * y) -
+                            pair.normal.x_m * (turn.sine * x + turn.cosine * y)};
+    for (std::size_t row = 0; row < 3; ++row) {
+      for (std::size_t column = 0; column <= row; ++column) {
+        system.h(row, column) += j[row] * j[column];
+      }
+      system.b[row] -= j[row] * pair.distance_m;
+    }
+    squares += square(pair.distance_m);
+    ++used;
+  }
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = row + 1; column < 3; ++column) {
+      system.h(row, column) = system.h(column, row);
+    }
+  }
+  mean_squares = used > 0 ? squares / static_cast<float>(used) : 0.0F;
+  return system;
+}
+
+bool PlIcpMatcherCore::step() {
+  if (done_) { return true; }
+  find_pairs();
+  if (pair_count_ < static_cast<std::size_t>(config_.min_pairs)) {
+    return finish(MatchOutcome::too_few_points);
+  }
+  float mean_squares = 0.0F;
+  int used = 0;
+  const NormalEquations3 system = linearise(trim_limit(), mean_squares, used);
+  const float length = 2.0F;  // metres a radian is worth: about the mean range indoors
+  const Conditioning conditioning = conditioning_of(system.h, length);
+  report_.condition = conditioning.condition;
+  report_.points = used;
+  report_.inlier_share = static_cast<float>(used) / static_cast<float>(scan_count_);
+  report_.mean_residual_m = square_root(mean_squares);
+  // Residuals above the configured noise mean that lines fit worse than the sensor measures.
+  const float weight = 1.0F / std::max(square(config_.sigma_m), mean_squares);
+  for (std::size_t k = 0; k < 9; ++k) {
+    report_.scan_information.elements[k] = weight * system.h.elements[k];
+  }
+  const bool open = !(conditioning.condition <= config_.max_condition);
+  StepSolution solution =
+      open ? solve_constrained(system, conditioning, length, config_.max_condition) : solve(system);
+  if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
+  ++report_.iterations;
+  report_.pose = moved_by(report_.pose, solution.step);
+  if (is_beyond(config_.max_total_m, config_.max_total_rad, request_.start, report_.pose)) {
+    return finish(MatchOutcome::step_limit);
+  }
+  if (is_below(config_.converged_m, config_.converged_rad, solution.step)) {
+    return finish(open ? MatchOutcome::degenerate : MatchOutcome::converged);
+  }
+  if (report_.iterations >= config_.max_iterations) {
+    return finish(open ? MatchOutcome::degenerate : MatchOutcome::iteration_limit);
+  }
+  return false;
+}
+
+bool PlIcpMatcherCore::finish(MatchOutcome outcome) {
+  report_.outcome = outcome;
+  if (!keeps_pose(outcome)) { report_.pose = request_.start; }
+  report_.covariance = covariance_of(report_.scan_information, kUnknownVariance);
+  done_ = true;
+  return true;
+}
+
+MatchReport PlIcpMatcherCore::match(const PointsView& reference, const MatchRequest& request) {
+  begin(reference, request);
+  while (!step()) {}
+  return report_;
+}
+
+}  // namespace picolo::inline v0

@@ -38,6 +38,7 @@ ExitCode run(int argc, char** argv) {
       "Exit codes: 0 done, 1 result refused, 2 wrong usage, 3 input unreadable or without a valid\n"
       "record, 4 device or disk failed. 'picolo COMMAND --help' explains a command by examples.");
   Action action;
+  add_demo(app, action);
   add_undistort(app, action);
   try {
     app.parse(argc, argv);

@@ -30,13 +30,17 @@ class SimulatedController {
  public:
   using Type = Controller<P, CanopenWheels, Ld06, WitMotion>;
 
+  /// The simulation's own cycle counter stands still during a frame; `cycle_counter` replaces it to
+  /// measure this machine's time. Either way no decision depends on it.
   explicit SimulatedController(const sim::SimulationConfig& simulation,
-                               const ControllerConfig& config = simulated_vehicle_config())
+                               const ControllerConfig& config = simulated_vehicle_config(),
+                               CycleCounter* cycle_counter = nullptr)
       : simulation_(simulation),
         wheels_(simulation_.can(), wheels_config(simulation)),
         lidar_(simulation_.lidar_port()),
         imu_(simulation_.imu_port()),
-        controller_({simulation_.can(), simulation_.clock(), simulation_.cycle_counter(),
+        controller_({simulation_.can(), simulation_.clock(),
+                     cycle_counter != nullptr ? *cycle_counter : simulation_.cycle_counter(),
                      simulation_.watchdog()},
                     wheels_, lidar_, imu_, events_, config) {}
   SimulatedController(const SimulatedController&) = delete;

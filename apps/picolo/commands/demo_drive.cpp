@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+#include "commands/demo_drive.hpp"
+
+#include <time.h>  // NOLINT(modernize-deprecated-headers): clock_gettime is POSIX
+
+#include <algorithm>
+#include <memory>
+
+#include "picolo/heap_trap/heap_trap.hpp"
+#include "picolo/host/map_image.hpp"
+#include "picolo/host/quantile.hpp"
+#include "picolo/simulated/simulated_controller.hpp"
+
+namespace picolo::tool {
+namespace {
+
+using Robot = SimulatedController<SiteProfile>;
+
+constexpr int kFramesPerSecond = 200;
+constexpr int kFramesPerPose = 20;
+
+/// Nanoseconds that this machine's processor spent on the cycle; a busy machine does not lengthen
+/// them.
+class HostCycleCounter final : public CycleCounter {
+ public:
+  std::uint32_t cycles() override {
+    timespec now{};
+    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return static_cast<std::uint32_t>(now.tv_sec * 1'000'000'000LL + now.tv_nsec);
+  }
+  [[nodiscard]] std::uint32_t cycles_per_us() const override { return 1000; }
+};
+
+/// Keeps the length of every run, in memory taken beforehand.
+class TaskTimes {
+ public:
+  explicit TaskTimes(std::size_t frames) {
+    for (auto& runs : runs_) { runs.reserve(frames); }
+  }
+  void ran(std::size_t task, std::uint32_t cycles) { runs_[task].push_back(cycles); }
+  [[nodiscard]] TaskTime summary(std::size_t task, const TaskEntry& entry,
+                                 double cycles_per_us) const {
+    const auto& runs = runs_[task];
+    std::vector<double> times_us;
+    times_us.reserve(runs.size());
+    for (const std::uint32_t cycles : runs) { times_us.push_back(cycles / cycles_per_us); }
+    const double worst_us =
+        times_us.empty() ? 0.0 : *std::max_element(times_us.begin(), times_us.end());
+    return {entry.name, host::quantile(std::move(times_us), 0.5), worst_us};
+  }
+
+ private:
+  std::array<std::vector<std::uint32_t>, kControllerTasks> runs_;
+};
+
+void keep_pose(const Robot& robot, DemoResult& result) {
+  const PoseEstimate& estimate = robot.controller().estimate();
+  const Result<Pose2d> truth = robot.true_map_T_base(estimate.stamp);
+  if (estimate.matches == 0 || !truth) { return; }
+  const double stamp_s = to_seconds_f64(estimate.stamp.time_since_epoch());
+  result.trajectory.push_back({stamp_s, estimate.map_T_base});
+  result.odometry.push_back({stamp_s, estimate.odom_T_base});
+  result.truth.push_back({stamp_s, *truth});
+  result.tracking_share += estimate.state == HealthState::tracking ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+DemoResult drive_demo(const DemoSettings& settings,
+                      const std::function<void(std::size_t)>& progress) {
+  const int frames = settings.seconds * kFramesPerSecond;
+  HostCycleCounter cycles;
+  TaskTimes times{static_cast<std::size_t>(frames)};
+  const auto robot = std::make_unique<Robot>(sim::SimulationConfig{.seed = settings.seed},
+                                             simulated_vehicle_config(), &cycles);
+  DemoResult result;
+  Status status = robot->start();
+  for (int frame = 0; frame < frames && status == Status::ok; ++frame) {
+    const std::uint64_t heap_calls_before = heap_trap::calls();
+    {
+      const heap_trap::Guard guard;
+      status = robot->run_frame(times);
+    }
+    result.heap_calls += heap_trap::calls() - heap_calls_before;
+    if (frame % kFramesPerPose == kFramesPerPose - 1) { keep_pose(*robot, result); }
+    if (frame % kFramesPerSecond == 0) {
+      progress(static_cast<std::size_t>(frame / kFramesPerSecond));
+    }
+  }
+  const auto& controller = robot->controller();
+  result.map = host::crop(host::image_of(controller.pipeline().localiser().map()), 10);
+  result.counters = controller.pipeline().localiser().counters();
+  for (std::size_t task = 0; task < kControllerTasks; ++task) {
+    result.tasks.push_back(
+        times.summary(task, controller.schedule().entry(task), cycles.cycles_per_us()));
+  }
+  result.tracking_share /= std::max(1.0, static_cast<double>(result.trajectory.size()));
+  result.state = controller.supervisor().state();
+  result.reason = controller.supervisor().reason();
+  return result;
+}
+
+}  // namespace picolo::tool

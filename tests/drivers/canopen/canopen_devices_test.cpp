@@ -200,6 +200,16 @@ TEST(CanopenDevices, GivenConfigurationsThatCannotWorkThenTheyAreRefused) {
   EXPECT_FALSE(config.valid());
 }
 
+TEST(CanopenDevices, GivenAConfigurationWithoutPositionAllTheSameThenNothingIsDecoded) {
+  CanopenWheelsConfig config = two_cia402_drives(1, 2);
+  for (auto& wheel : config.wheels) { wheel.position_index = 0x6063; }
+  FakeCanBus bus;
+  CanopenWheels wheels{bus, config};
+  EXPECT_TRUE(wheels.consume(tpdo(at_ms(10), 0x181, 5)));
+  EXPECT_TRUE(wheels.consume(tpdo(at_ms(10), 0x182, 5)));
+  EXPECT_EQ(wheels.take().status(), Status::not_ready);
+}
+
 /// What goes in as counts of an encoder comes out as motion, whatever the bus does in between.
 TEST(CanopenDevices, PropertyEncodedPositionsComeBackAsCounts) {
   EXPECT_TRUE(rc::check([] {

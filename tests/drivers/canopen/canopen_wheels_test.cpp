@@ -225,6 +225,27 @@ TEST_F(TwoDrives, GivenTheFiltersThenTheyPassExactlyWhatConsumeTakes) {
   }
 }
 
+TEST_F(TwoDrives, GivenAFrameThatClaimsMoreThanEightBytesThenItIsNotTouched) {
+  CanFrame frame = tpdo(at_ms(1), 0x181, 5);
+  frame.length = 9;
+  EXPECT_FALSE(wheels_.consume(frame));
+}
+
+TEST_F(TwoDrives, GivenARestartBehindASampleThatNobodyTookThenItIsToldToo) {
+  sync_and_answers(10, 5, 5);
+  ASSERT_TRUE(wheels_.poll(10));
+  for (const CanFrame& frame :
+       {tpdo(at_ms(20), 0x181, 6), tpdo(at_ms(20), 0x182, 6), heartbeat(at_ms(25), 2, kBootUp),
+        tpdo(at_ms(30), 0x181, 7), tpdo(at_ms(30), 0x182, 0)}) {
+    ASSERT_TRUE(wheels_.consume(frame));
+  }
+  const auto sample = wheels_.take();
+  ASSERT_TRUE(sample);
+  EXPECT_TRUE(sample->restarted);
+  EXPECT_EQ(sample->ticks[0], 2);
+  EXPECT_EQ(sample->ticks[1], 1);
+}
+
 class SyncProducer : public testing::Test {
  protected:
   static CanopenWheelsConfig config(std::uint8_t overflow = 0) {

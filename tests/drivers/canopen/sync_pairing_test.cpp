@@ -123,6 +123,12 @@ TEST_F(Pairing, GivenBothFramesWaitingWhenTheNextSyncWentOutThenTheyKeepTheirEpo
   EXPECT_EQ(count(kRight, 10'550, 1)->stamp, at(10'000));
 }
 
+TEST_F(Pairing, GivenAStampJustBeforeTheSyncAndNoEpochBeforeItThenTheCountBelongsToTheSync) {
+  sync(10'000);
+  EXPECT_FALSE(count(kLeft, 9'950, 1));  // a clock that is not that good
+  EXPECT_EQ(count(kRight, 10'100, 1)->stamp, at(10'000));
+}
+
 TEST_F(Pairing, GivenASyncLongAgoThenItIsNotTheStampOfALateEvent) {
   sync(10'000);
   EXPECT_FALSE(count(kLeft, 3'000'000, 1));

@@ -81,6 +81,15 @@ TEST(DeviceClock, GivenALongSilenceThenItBeginsAnew) {
   EXPECT_EQ(clock.restarts(), 1U);
 }
 
+TEST(DeviceClock, GivenASilenceOfSecondsThenWhatWasMeasuredBeforeItNoLongerCounts) {
+  DeviceClock clock;
+  const Device device{.drift_ppm = -2000};  // far beyond what is configured
+  EXPECT_EQ(clock.map(Timestamp{5s}, device.counter(Timestamp{5s})), Timestamp{5s});
+  const Timestamp later{9s};
+  EXPECT_EQ(clock.map(later, device.counter(later)), later);
+  EXPECT_EQ(clock.restarts(), 0U);
+}
+
 TEST(DeviceClock, GivenACounterAtAThirdOfItsRateThenTheErrorStaysBoundedAndIsCounted) {
   DeviceClock clock;
   for (Timestamp t{5s}; t < Timestamp{20s}; t += 10ms) {

@@ -44,6 +44,7 @@ void PlIcpMatcherCore::begin(const PointsView& reference, const MatchRequest& re
     return key[a] < key[b] || (key[a] == key[b] && a < b);
   });
   for (std::size_t k = 0; k < reference_count_; ++k) { storage_.bearing_rad[k] = key[order[k]]; }
+  for (std::size_t k = 0; k < reference_count_; ++k) { storage_.lines[k] = line_at(k); }
   const auto needed = static_cast<std::size_t>(config_.min_pairs);
   if (reference_count_ < needed || scan_count_ < needed) {
     static_cast<void>(finish(MatchOutcome::too_few_points));
@@ -86,31 +87,56 @@ PlIcpMatcherCore::Partner PlIcpMatcherCore::nearest(const Point2f& p) const {
   return best;
 }
 
-/// The line through the partner and that of its two neighbours which is nearer to the point.
-bool PlIcpMatcherCore::line_near(const Partner& partner, const Point2f& p, LinePair& pair) const {
-  const Point2f q = reference_at(partner.position);
-  const float limit =
+/// How many neighbours on one side belong to the same surface.
+std::size_t PlIcpMatcherCore::neighbours(std::size_t position, bool upwards) const {
+  const Point2f q = reference_at(position);
+  const float gap =
       square(std::max(config_.max_segment_m, config_.max_segment_share * hypotenuse(q.x_m, q.y_m)));
-  float nearest_squared = 0.0F;
-  Point2f other{};
-  bool found = false;
-  const std::size_t neighbours[2] = {
-      partner.position > 0 ? partner.position - 1 : reference_count_ - 1,
-      partner.position + 1 < reference_count_ ? partner.position + 1 : 0};
-  for (const std::size_t position : neighbours) {
-    const Point2f candidate = reference_at(position);
-    const float along = squared_distance(candidate, q);
-    const float squared = squared_distance(candidate, p);
-    if (along > limit || along < 1e-10F || (found && !(squared < nearest_squared))) { continue; }
-    other = candidate;
-    nearest_squared = squared;
-    found = true;
+  Point2f before = q;
+  std::size_t count = 0;
+  for (int k = 1; k <= config_.line_neighbours; ++k) {
+    const auto offset = static_cast<std::size_t>(k);
+    const Point2f next = reference_at((position + (upwards ? offset : reference_count_ - offset)) %
+                                      reference_count_);
+    const bool near = squared_distance(next, q) <= square(config_.line_radius_m);
+    if (squared_distance(next, before) > gap || (k > 1 && !near)) {
+      break;
+    }  // one neighbour, however far along
+    before = next;
+    ++count;
   }
-  if (!found) { return false; }
-  const float length = hypotenuse(other.x_m - q.x_m, other.y_m - q.y_m);
-  pair.normal = {(q.y_m - other.y_m) / length, (other.x_m - q.x_m) / length};
-  pair.distance_m = pair.normal.x_m * (p.x_m - q.x_m) + pair.normal.y_m * (p.y_m - q.y_m);
-  return true;
+  return count;
+}
+
+/// Total least squares: the direction of the smaller eigenvalue of the neighbours' scatter.
+ReferenceLine PlIcpMatcherCore::line_at(std::size_t position) const {
+  const std::size_t below = neighbours(position, false);
+  const std::size_t total = below + neighbours(position, true) + 1;
+  if (total < 2) { return {}; }
+  const Point2f origin = reference_at(position);  // differences keep float exact enough
+  float x = 0.0F, y = 0.0F, xx = 0.0F, xy = 0.0F, yy = 0.0F;
+  for (std::size_t k = 0; k < total; ++k) {
+    const Point2f p = reference_at((position + reference_count_ - below + k) % reference_count_);
+    const float dx = p.x_m - origin.x_m;
+    const float dy = p.y_m - origin.y_m;
+    x += dx;
+    y += dy;
+    xx += dx * dx;
+    xy += dx * dy;
+    yy += dy * dy;
+  }
+  const auto n = static_cast<float>(total);
+  const float half = 0.5F * ((xx - x * x / n) - (yy - y * y / n));
+  const float cross = xy - x * y / n;
+  const float root = hypotenuse(half, cross);
+  const float mean = 0.5F * ((xx - x * x / n) + (yy - y * y / n));
+  if (!(mean - root <= config_.max_flatness * (mean + root))) { return {}; }
+  // The normal is orthogonal to the longer row of (scatter - smaller eigenvalue).
+  const bool first = half > 0.0F;
+  const Point2f normal{first ? -cross : root - half, first ? half + root : -cross};
+  const float length = hypotenuse(normal.x_m, normal.y_m);
+  if (!(length > 0.0F)) { return {}; }
+  return {{origin.x_m + x / n, origin.y_m + y / n}, {normal.x_m / length, normal.y_m / length}};
 }
 
 void PlIcpMatcherCore::find_pairs() {
@@ -122,10 +148,12 @@ void PlIcpMatcherCore::find_pairs() {
     const Point2f p{report_.pose.x_m + (turn.cosine * x - turn.sine * y),
                     report_.pose.y_m + (turn.sine * x + turn.cosine * y)};
     const Partner partner = nearest(p);
-    LinePair pair;
-    if (!partner.found || !line_near(partner, p, pair)) { continue; }
-    pair.point = static_cast<std::uint16_t>(k);
-    storage_.pairs[pair_count_] = pair;
+    if (!partner.found) { continue; }
+    const ReferenceLine& line = storage_.lines[partner.position];
+    if (line.normal == Point2f{}) { continue; }
+    storage_.pairs[pair_count_] = {static_cast<std::uint16_t>(k), line.normal,
+                                   line.normal.x_m * (p.x_m - line.anchor_m.x_m) +
+                                       line.normal.y_m * (p.y_m - line.anchor_m.y_m)};
     ++pair_count_;
   }
 }

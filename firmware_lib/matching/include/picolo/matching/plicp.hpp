@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// Scan to scan by point-to-line ICP (Censi 2008, "An ICP variant using a point-to-line metric"),
-/// trimmed: quadratic convergence where point-to-point crawls along walls.
+/// trimmed: quadratic convergence where point-to-point crawls along walls. Lines are fitted through
+/// several neighbours: two adjacent beams of a near wall stand closer together than their noise,
+/// and a line through them points anywhere.
 #pragma once
 
 #include <array>
@@ -21,6 +23,9 @@ struct PlIcpConfig {
   float max_pair_m = 0.4F;         ///< points further from the reference have no partner
   float max_segment_m = 0.3F;      ///< neighbours of the reference further apart are no line...
   float max_segment_share = 0.1F;  ///< ... unless closer than this share of their range
+  float line_radius_m = 0.04F;     ///< a line is fitted through neighbours within this radius...
+  int line_neighbours = 3;         ///< ... at most so many on each side
+  float max_flatness = 0.15F;      ///< smaller over larger spread; above: a corner, no line
   float keep_share = 0.85F;        ///< of the pairs, those with the smallest distance to their line
   int max_candidates = 60;         ///< reference points looked at on each side of a bearing
   float converged_m = 1e-4F;       ///< stop when the step is below both
@@ -31,12 +36,19 @@ struct PlIcpConfig {
   float sigma_m = 0.02F;  ///< of one distance to a line, at least; larger when the residuals are
   [[nodiscard]] constexpr bool valid() const {
     return max_iterations > 0 && min_pairs >= 3 && max_pair_m > 0.0F && max_segment_m > 0.0F &&
-           max_segment_share >= 0.0F && keep_share > 0.0F && keep_share <= 1.0F &&
-           max_candidates > 0 && converged_m > 0.0F && converged_rad > 0.0F && max_total_m > 0.0F &&
+           max_segment_share >= 0.0F && line_radius_m > 0.0F && line_neighbours >= 1 &&
+           max_flatness > 0.0F && keep_share > 0.0F && keep_share <= 1.0F && max_candidates > 0 &&
+           converged_m > 0.0F && converged_rad > 0.0F && max_total_m > 0.0F &&
            max_total_rad > 0.0F && max_condition > 1.0F && sigma_m > 0.0F;
   }
 };
 static_assert(PlIcpConfig{}.valid());
+
+/// The line through a reference point and its neighbours.
+struct ReferenceLine {
+  Point2f anchor_m{};
+  Point2f normal{};  ///< unit; zero: no line here
+};
 
 /// One scan point and the line it should lie on.
 struct LinePair {
@@ -49,6 +61,7 @@ struct LinePair {
 struct PlIcpStorage {
   std::span<std::uint16_t> by_bearing;
   std::span<float> bearing_rad;
+  std::span<ReferenceLine> lines;
   std::span<LinePair> pairs;
   std::span<float> sorted_m;
 };
@@ -78,7 +91,8 @@ class PlIcpMatcherCore {
   };
   [[nodiscard]] Point2f reference_at(std::size_t position) const;
   [[nodiscard]] Partner nearest(const Point2f& p) const;
-  [[nodiscard]] bool line_near(const Partner& partner, const Point2f& p, LinePair& pair) const;
+  [[nodiscard]] ReferenceLine line_at(std::size_t position) const;
+  [[nodiscard]] std::size_t neighbours(std::size_t position, bool upwards) const;
   void find_pairs();
   [[nodiscard]] float trim_limit();
   [[nodiscard]] NormalEquations3 linearise(float limit_m, float& mean_squares, int& used) const;
@@ -95,14 +109,14 @@ class PlIcpMatcherCore {
   bool done_ = true;
 };
 
-/// Storage: 26 bytes a point.
+/// Storage: 42 bytes a point.
 template <std::size_t Capacity>
 class PlIcpMatcher {
   static_assert(Capacity > 0 && Capacity < 65536);
 
  public:
   explicit PlIcpMatcher(const PlIcpConfig& config = {})
-      : core_(config, {by_bearing_, bearing_rad_, pairs_, sorted_m_}) {}
+      : core_(config, {by_bearing_, bearing_rad_, lines_, pairs_, sorted_m_}) {}
   PlIcpMatcher(const PlIcpMatcher&) = delete;
   PlIcpMatcher& operator=(const PlIcpMatcher&) = delete;
   ~PlIcpMatcher() = default;
@@ -115,6 +129,7 @@ class PlIcpMatcher {
  private:
   std::array<std::uint16_t, Capacity> by_bearing_{};
   std::array<float, Capacity> bearing_rad_{};
+  std::array<ReferenceLine, Capacity> lines_{};
   std::array<LinePair, Capacity> pairs_{};
   std::array<float, Capacity> sorted_m_{};
   PlIcpMatcherCore core_;

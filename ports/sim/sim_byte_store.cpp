@@ -33,8 +33,11 @@ Status SimByteStore::program(std::size_t address, std::span<const std::uint8_t> 
     const bool torn = power_fails_now();
     const auto erased = [](std::uint8_t byte) { return byte == 0xFF; };
     if (!std::all_of(granule.begin(), granule.end(), erased)) { ++overwrites_; }
+    // Torn: not a bit, every bit, or some bits of the granule were written.
+    const std::uint32_t fate = torn ? random_.below(4) : 1;
     for (std::size_t i = 0; i < granule_; ++i) {
-      const std::uint32_t kept = torn ? random_.next_u32() & 0xFFU : 0U;
+      const std::uint32_t some = random_.next_u32() & 0xFFU;
+      const std::uint32_t kept = fate == 0 ? 0xFFU : fate == 1 ? 0U : some;
       granule[i] = static_cast<std::uint8_t>(granule[i] & (bytes[done + i] | kept));
     }
     if (torn) { return Status::io_error; }

@@ -38,12 +38,14 @@ LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine
       fine_(fine),
       coarse_(coarse),
       coarse_matcher_(config.coarse),
-      fine_matcher_(config.fine) {}
+      fine_matcher_(config.fine),
+      heading_(config.heading) {}
 
 void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base) {
   map_T_base_ = map_T_base;
   map_T_odom_ = map_T_base * inverse(odom_T_base);
-  last_odom_T_base_ = odom_T_base;
+  accepted_map_T_base_ = map_T_base;
+  accepted_odom_T_base_ = odom_T_base;
 }
 
 Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) {
@@ -51,7 +53,12 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
   sweep_ = sweep;
   ++counters_.sweeps;
   // Kohlbrecher's start: map_T_base(t-1) * odom_T_base(t-1)^-1 * odom_T_base(t).
-  prediction_ = odometry_valid ? map_T_odom_ * sweep.odom_T_base : map_T_base_;
+  const Pose2d motion = between(accepted_odom_T_base_, sweep.odom_T_base);
+  prediction_ = accepted_map_T_base_;
+  if (odometry_valid) {
+    prediction_ =
+        accepted_map_T_base_ * (config_.learn_heading ? heading_.corrected(motion) : motion);
+  }
   if (!started_) {
     started_ = true;
     fine_.reset(prediction_.x_m, prediction_.y_m);
@@ -61,7 +68,8 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     last_correction_ = {};
     map_T_base_ = prediction_;
     reference_ = sweep_.reference;
-    last_odom_T_base_ = sweep_.odom_T_base;
+    accepted_map_T_base_ = prediction_;
+    accepted_odom_T_base_ = sweep_.odom_T_base;
     start_map_update();
     return Status::ok;
   }
@@ -74,7 +82,8 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
 PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& prediction,
                                   bool odometry_valid) const {
   const PredictionNoise& noise = config_.noise;
-  const Pose2f moved = to_f32(between(last_odom_T_base_, sweep_.odom_T_base));
+  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
+  const Pose2f moved = to_f32(motion);
   const float squared_distance = square(moved.x_m) + square(moved.y_m);
   const float squared_turn = square(moved.theta_rad);
   float translation_variance = square(noise.blind_translation_m);
@@ -86,6 +95,9 @@ PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& predic
     rotation_variance = square(noise.rotation_base_rad) +
                         square(noise.rotation_per_m_rad) * squared_distance +
                         square(noise.rotation_per_rad) * squared_turn;
+    if (config_.learn_heading) {
+      rotation_variance += static_cast<float>(heading_.variance(motion));
+    }
   }
   const float along = noise.weight / translation_variance;
   return {to_window(window, prediction),
@@ -94,6 +106,7 @@ PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& predic
 
 void LocaliserCore::start_match(const Pose2d& prediction, bool odometry_valid) {
   phase_ = LocaliserPhase::matching;
+  with_odometry_ = odometry_valid;
   on_coarse_ = config_.use_coarse;
   request_.points = sweep_.points;
   const GridWindow& window = on_coarse_ ? coarse_.window() : fine_.window();
@@ -138,7 +151,13 @@ void LocaliserCore::conclude() {
   map_T_base_ = to_map(fine_.window(), report_.pose);
   last_correction_ = to_f32(between(prediction_, map_T_base_));
   map_T_odom_ = map_T_base_ * inverse(sweep_.odom_T_base);
-  last_odom_T_base_ = sweep_.odom_T_base;
+  if (config_.learn_heading && with_odometry_) {
+    const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
+    const double turn = between(accepted_map_T_base_, map_T_base_).theta_rad;
+    heading_.update(motion, turn, static_cast<double>(report_.covariance(2, 2)) + 1e-4);
+  }
+  accepted_map_T_base_ = map_T_base_;
+  accepted_odom_T_base_ = sweep_.odom_T_base;
   const Pose2d since = between(last_inserted_, map_T_base_);
   const double turn = since.theta_rad < 0.0 ? -since.theta_rad : since.theta_rad;
   if (hypotenuse(since.x_m, since.y_m) < static_cast<double>(config_.insert_every_m) &&

@@ -52,6 +52,8 @@ void RollingMapCore::reset(double centre_x_m, double centre_y_m) {
   std::fill(storage_.stale_tiles.begin(), storage_.stale_tiles.end(), std::uint8_t{0});
   stale_count_ = 0;
   next_tile_ = 0;
+  first_changed_row_ = window_.height;
+  last_changed_row_ = -1;
 }
 
 bool RollingMapCore::follow(double x_m, double y_m) {
@@ -84,7 +86,14 @@ std::size_t RollingMapCore::index_of(int column, int row) const {
 }
 
 void RollingMapCore::begin_scan() {
-  std::fill(storage_.changed.begin(), storage_.changed.end(), 0U);
+  if (last_changed_row_ >= first_changed_row_) {
+    const std::size_t first = index_of(0, first_changed_row_) / 32;
+    const std::size_t end = (index_of(0, last_changed_row_ + 1) + 31) / 32;
+    std::fill(storage_.changed.begin() + static_cast<std::ptrdiff_t>(first),
+              storage_.changed.begin() + static_cast<std::ptrdiff_t>(end), 0U);
+  }
+  first_changed_row_ = window_.height;
+  last_changed_row_ = -1;
 }
 
 bool RollingMapCore::mark_changed(std::size_t index) {
@@ -100,6 +109,8 @@ void RollingMapCore::change(int column, int row, int delta) {
       static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.width) +
       static_cast<std::size_t>(column);
   if (!mark_changed(index)) { return; }
+  first_changed_row_ = std::min(first_changed_row_, row);
+  last_changed_row_ = std::max(last_changed_row_, row);
   std::int8_t& cell = storage_.occupancy[index];
   const bool was_occupied = cell >= config_.occupied_from;
   cell = static_cast<std::int8_t>(

@@ -12,6 +12,7 @@
 #include "picolo/localisation/profile.hpp"
 #include "picolo/map/rolling_map.hpp"
 #include "picolo/matching/gauss_newton.hpp"
+#include "picolo/odometry/heading_correction.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
@@ -37,6 +38,8 @@ struct LocaliserConfig {
   GaussNewtonConfig fine{};
   bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
   PredictionNoise noise{};
+  HeadingCorrectionConfig heading{};
+  bool learn_heading = true;       ///< correct the odometry's heading by what matches taught
   float min_inlier_share =
       0.30F;  ///< a match with fewer points near known obstacles may not move the pose nor the map
   float insert_every_m =
@@ -48,7 +51,7 @@ struct LocaliserConfig {
   [[nodiscard]] constexpr bool valid() const {
     return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
            min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
-           ray_stop_cells >= 0 && noise.weight >= 0.0F && max_insert_range_m > 0.0F &&
+           ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && max_insert_range_m > 0.0F &&
            max_repair_tiles > 0;
   }
 };
@@ -95,6 +98,7 @@ class LocaliserCore {
   [[nodiscard]] const Pose2d& map_T_base() const { return map_T_base_; }
   [[nodiscard]] Timestamp reference() const { return reference_; }
   [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
+  [[nodiscard]] const HeadingCorrection& heading() const { return heading_; }
   /// By how much the last accepted match moved the prediction, in base.
   [[nodiscard]] const Pose2f& last_correction() const { return last_correction_; }
   [[nodiscard]] const LocaliserCounters& counters() const { return counters_; }
@@ -121,11 +125,14 @@ class LocaliserCore {
   Pose2d prediction_{};
   Pose2d map_T_base_{};
   Pose2d map_T_odom_{};
-  Pose2d last_odom_T_base_{};
+  Pose2d accepted_map_T_base_{};   // at the last accepted match, with ...
+  Pose2d accepted_odom_T_base_{};  // ... the odometry at its instant
+  HeadingCorrection heading_;
   Pose2d last_inserted_{};
   Pose2f last_correction_{};
   Timestamp reference_{};
   bool started_ = false;
+  bool with_odometry_ = false;
   bool on_coarse_ = false;
   bool accepted_ = false;
   bool adding_hits_ = false;

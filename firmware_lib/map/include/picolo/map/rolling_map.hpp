@@ -61,7 +61,7 @@ class RollingMapCore {
   /// or one copy of the whole window.
   bool follow(double x_m, double y_m);
 
-  /// Starts a scan: every cell changes at most once until the next call. Cost: O(cells / 32).
+  /// Starts a scan: every cell changes at most once until the next call. Cost: O(cells / 32) over the rows that the last one touched.
   void begin_scan();
   /// One end of a beam, window coordinates; outside of the window it has no effect. Cost: O(1), or
   /// O(radius^2) for a new obstacle.
@@ -95,6 +95,8 @@ class RollingMapCore {
   float cells_per_m_ = 0.0F;
   std::array<std::uint8_t, kMaxFieldRadius * kMaxFieldRadius + 1>
       byte_of_square_{};  // squared cells -> field byte
+  int first_changed_row_ = 0;  // of the current scan: what begin_scan has to forget
+  int last_changed_row_ = -1;
   int stale_count_ = 0;
   std::size_t next_tile_ = 0;
 };

@@ -162,8 +162,8 @@ TEST(Localiser, AScanThatDoesNotFitMovesNothing) {
   EXPECT_EQ(core.counters().rejected, 1U);
   EXPECT_EQ(core.map_T_odom(), map_T_odom);
   EXPECT_TRUE(std::equal(map_before.begin(), map_before.end(), core.map().occupancy().begin()));
-  EXPECT_LE(distance(core.map_T_base(), map_T_odom * world.odometry[50]), 1e-12)
-      << "odometry carries on";
+  EXPECT_LE(distance(core.map_T_base(), map_T_odom * world.odometry[50]), 1e-4)
+      << "odometry carries on, its heading corrected by what was learnt";
 
   ASSERT_EQ(core.process(sweep_of(world, 51), true), Status::ok);
   EXPECT_TRUE(core.accepted());

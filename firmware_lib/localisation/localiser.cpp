@@ -39,6 +39,7 @@ LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine
       coarse_(coarse),
       coarse_matcher_(config.coarse),
       fine_matcher_(config.fine),
+      search_(config.search.correlative),
       heading_(config.heading) {}
 
 void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base) {
@@ -75,20 +76,20 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
   }
   fine_.follow(prediction_.x_m, prediction_.y_m);
   coarse_.follow(prediction_.x_m, prediction_.y_m);
-  start_match(prediction_, odometry_valid);
+  with_odometry_ = odometry_valid;
+  start_match();
   return Status::ok;
 }
 
-PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& prediction,
-                                  bool odometry_valid) const {
+void LocaliserCore::start_match() {
   const PredictionNoise& noise = config_.noise;
-  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
-  const Pose2f moved = to_f32(motion);
-  const float squared_distance = square(moved.x_m) + square(moved.y_m);
-  const float squared_turn = square(moved.theta_rad);
   float translation_variance = square(noise.blind_translation_m);
   float rotation_variance = square(noise.blind_rotation_rad);
-  if (odometry_valid) {
+  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
+  if (with_odometry_) {
+    const Pose2f moved = to_f32(motion);
+    const float squared_distance = square(moved.x_m) + square(moved.y_m);
+    const float squared_turn = square(moved.theta_rad);
     translation_variance = square(noise.translation_base_m) +
                            square(noise.translation_per_m) * squared_distance +
                            square(noise.translation_per_rad_m) * squared_turn;
@@ -99,45 +100,126 @@ PosePrior LocaliserCore::prior_at(const GridWindow& window, const Pose2d& predic
       rotation_variance += static_cast<float>(heading_.variance(motion));
     }
   }
-  const float along = noise.weight / translation_variance;
-  return {to_window(window, prediction),
-          Matrix3f::diagonal(along, along, noise.weight / rotation_variance)};
-}
+  translation_sigma_m_ = square_root(translation_variance);
+  rotation_sigma_rad_ = square_root(rotation_variance);
 
-void LocaliserCore::start_match(const Pose2d& prediction, bool odometry_valid) {
   phase_ = LocaliserPhase::matching;
-  with_odometry_ = odometry_valid;
-  on_coarse_ = config_.use_coarse;
+  searched_ = !config_.search.enabled;
+  searched_wide_ = !config_.search.enabled;
+  has_report_ = false;
+  candidate_ = kMaxCandidates;
+  request_ = {};
   request_.points = sweep_.points;
-  const GridWindow& window = on_coarse_ ? coarse_.window() : fine_.window();
-  request_.prior = prior_at(fine_.window(), prediction, odometry_valid);
-  request_.start = to_window(window, prediction);
-  if (!on_coarse_) {
-    fine_matcher_.begin(fine_.field(), request_);
+  request_.prior = prior_about(to_window(fine_.window(), prediction_));
+  if (!config_.use_coarse) {
+    refine(request_.prior.pose);
     return;
   }
   MatchRequest coarse = request_;
-  coarse.prior.pose = request_.start;
+  coarse.start = to_window(coarse_.window(), prediction_);
+  coarse.prior = prior_about(coarse.start);
   coarse_matcher_.begin(coarse_.field(), coarse);
+  stage_ = Stage::coarse;
+}
+
+PosePrior LocaliserCore::prior_about(const Pose2f& pose) const {
+  const float along = config_.noise.weight / square(translation_sigma_m_);
+  return {pose,
+          Matrix3f::diagonal(along, along, config_.noise.weight / square(rotation_sigma_rad_))};
+}
+
+void LocaliserCore::refine(const Pose2f& start) {
+  request_.start = start;
+  fine_matcher_.begin(fine_.field(), request_);
+  stage_ = Stage::refine;
 }
 
 bool LocaliserCore::match_step() {
   if (phase_ != LocaliserPhase::matching) { return true; }
-  if (on_coarse_) {
-    if (!coarse_matcher_.step()) { return false; }
-    const Pose2d coarse_pose = to_map(coarse_.window(), coarse_matcher_.report().pose);
-    on_coarse_ = false;
-    request_.start = to_window(fine_.window(), coarse_pose);
-    fine_matcher_.begin(fine_.field(), request_);
-    return false;
+  switch (stage_) {
+    case Stage::coarse:
+      if (coarse_matcher_.step()) {
+        refine(to_window(fine_.window(), to_map(coarse_.window(), coarse_matcher_.report().pose)));
+      }
+      return false;
+    case Stage::search:
+      if (!search_.step(config_.search.lookups_per_step)) { return false; }
+      candidate_ = 0;
+      break;
+    case Stage::refine:
+      if (!fine_matcher_.step()) { return false; }
+      consider(fine_matcher_.report());
+      break;
   }
-  if (!fine_matcher_.step()) { return false; }
+  if (next_candidate() || begin_search() || begin_wide_search()) { return false; }
   conclude();
   return true;
 }
 
+/// Keeps the better of the reports: the cheaper one, or after a wide search, which knows no prior,
+/// the one that fits clearly more.
+void LocaliserCore::consider(const MatchReport& report) {
+  const bool wide = config_.search.enabled && searched_wide_;
+  const bool better = !has_report_ || !usable(report_.outcome) ||
+                      (wide ? report.inlier_share >= report_.inlier_share + config_.search.wide_gain
+                            : report.cost < report_.cost);
+  if (has_report_ && (!usable(report.outcome) || !better)) { return; }
+  report_ = report;
+  has_report_ = true;
+}
+
+bool LocaliserCore::next_candidate() {
+  if (candidate_ >= search_.candidates().size()) { return false; }
+  refine(search_.candidates()[candidate_].pose);
+  ++candidate_;
+  return true;
+}
+
+bool LocaliserCore::begin_search() {
+  if (searched_) { return false; }
+  const SearchConfig& search = config_.search;
+  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
+  const double turn = motion.theta_rad < 0.0 ? -motion.theta_rad : motion.theta_rad;
+  const bool far = !with_odometry_ ||
+                   hypotenuse(motion.x_m, motion.y_m) > static_cast<double>(search.after_m) ||
+                   turn > static_cast<double>(search.after_rad);
+  if (!far && usable(report_.outcome) && report_.inlier_share >= search.below_inlier_share) {
+    return false;
+  }
+  searched_ = true;
+  const SearchWindow window{
+      .centre = request_.prior.pose,
+      .half_translation_m =
+          std::clamp(3.0F * translation_sigma_m_, search.min_half_m, search.max_half_m),
+      .half_rotation_rad =
+          std::clamp(3.0F * rotation_sigma_rad_, search.min_half_rad, search.max_half_rad)};
+  if (search_.begin(fine_.field(), sweep_.points, window, request_.prior) != Status::ok) {
+    return false;
+  }
+  ++counters_.searched;
+  stage_ = Stage::search;
+  return true;
+}
+
+bool LocaliserCore::begin_wide_search() {
+  if (searched_wide_) { return false; }
+  const SearchConfig& search = config_.search;
+  if (usable(report_.outcome) && report_.inlier_share >= search.below_inlier_share) {
+    return false;
+  }
+  searched_wide_ = true;
+  request_.prior.information = {};
+  const SearchWindow window{
+      .centre = to_window(fine_.window(), accepted_map_T_base_),
+      .half_translation_m = std::min(search.wide_half_m, search_.max_half_m(fine_.field())),
+      .half_rotation_rad = search.wide_half_rad};
+  if (search_.begin(fine_.field(), sweep_.points, window) != Status::ok) { return false; }
+  ++counters_.searched_wide;
+  stage_ = Stage::search;
+  return true;
+}
+
 void LocaliserCore::conclude() {
-  report_ = fine_matcher_.report();
   ++counters_.outcomes[static_cast<std::size_t>(report_.outcome)];
   accepted_ = usable(report_.outcome) && report_.inlier_share >= config_.min_inlier_share;
   reference_ = sweep_.reference;

@@ -42,4 +42,16 @@ inline NormalEquations3 scaled_system(const FieldSums& sums, float s) {
           {s * sums.bx, s * sums.by, s * sums.bt}};
 }
 
+/// The robust cost of a pose: squared residuals, each no more than the kernel's width squared (the
+/// most also for a point outside of the map), as information, plus the prior's part. Comparable
+/// between starts of one request.
+inline float cost_of(const FieldSums& sums, const GaussNewtonConfig& config, float reach_m,
+                     const MatchRequest& request, const Pose2f& pose) {
+  const float kernel = config.kernel_m > 0.0F ? config.kernel_m / reach_m : 1.0F;
+  const float outside = static_cast<float>(request.points.size()) - sums.inside;
+  const float scan =
+      information_scale(sums, config, reach_m) * (sums.robust_squares + outside * kernel * kernel);
+  return scan + quadratic_form(request.prior.information, prior_error(request.prior, pose));
+}
+
 }  // namespace picolo::inline v0

@@ -55,6 +55,7 @@ bool GaussNewtonMatcher<Field>::step() {
   report_.inlier_share = sums.inliers / static_cast<float>(request_.points.size());
   length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
 
+  report_.cost = cost_of(sums, config_, field_.reach_m, request_, report_.pose);
   NormalEquations3 system = scaled_system(sums, information_scale(sums, config_, field_.reach_m));
   report_.scan_information = system.h;
   const Conditioning conditioning = conditioning_of(system.h, length_m_);

@@ -33,8 +33,8 @@ struct ControllerCounters {
   std::uint32_t readings = 0;        ///< beams of the lidar
   std::uint32_t imu_samples = 0;
   std::uint32_t frames_sent = 0;
-  std::uint32_t frames_refused =
-      0;  ///< the bus had no room; they are not repeated, the next ones are newer
+  /// The bus had no room; they are not repeated, the next ones are newer.
+  std::uint32_t frames_refused = 0;
 };
 
 /// All memory inside (see the profile), none from the heap; keep it in static storage. `start`,

@@ -83,8 +83,8 @@ struct ControllerConfig {
   HealthConfig health{};
   FramesOutConfig frames_out{};
   Pose2d start_map_T_base{};  ///< where the vehicle stands when the controller starts
-  Duration max_prediction =
-      25ms;  ///< the published pose runs ahead of the odometry by at most this
+  /// The published pose runs ahead of the odometry by at most this.
+  Duration max_prediction = 25ms;
   float min_jump_event_m = 0.05F;     ///< corrections that move the pose further are told as events
   float min_jump_event_rad = 0.035F;  ///< ... or turn it further
   [[nodiscard]] constexpr bool valid() const;

@@ -20,8 +20,8 @@ struct FrameInfo {
   Timestamp release{};  ///< when it should have started; always a multiple of the minor frame after
                         ///< the start
   Timestamp start{};    ///< when it did; the one time that all tasks of the frame use
-  std::uint32_t number =
-      0;  ///< counts minor frames since the start, slipped ones included, modulo 2^32
+  /// Counts minor frames since the start, slipped ones included, modulo 2^32.
+  std::uint32_t number = 0;
 };
 
 /// What `Schedule` keeps for one task.

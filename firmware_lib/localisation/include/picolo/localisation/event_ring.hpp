@@ -21,8 +21,8 @@ enum class EventCode : std::uint8_t {
   reason_changed = 2,  ///< within a state; argument: the reason before
   overrun = 3,         ///< argument: index of the task in the table
   frames_slipped = 4,  ///< argument: how many minor frames were not run
-  sweep_replaced =
-      5,  ///< a newer sweep came before the older was matched; argument: sweeps replaced so far
+  /// A newer sweep came before the older was matched; argument: sweeps replaced so far.
+  sweep_replaced = 5,
   sweep_dropped = 6,  ///< its poses are not known; argument: sequence number of the sweep
   pose_jump = 7,      ///< a correction moved the published pose; argument: by how many millimetres
   device_lost = 8,    ///< argument: index of the device (0 wheels, 1 lidar, 2 IMU)

@@ -23,8 +23,8 @@ struct HealthConfig {
   int lost_rejections = 15;     ///< ... and lost
   float max_position_variance_m2 = 0.25F;  ///< of the pose in the map; beyond it, lost
   int recover_matches = 3;                 ///< accepted in a row, and
-  Duration recover_after =
-      500ms;                    ///< this long without any cause, before degraded becomes tracking
+  /// This long without any cause, before degraded becomes tracking.
+  Duration recover_after = 500ms;
   int relocalised_matches = 5;  ///< accepted in a row before lost becomes degraded
   Duration overrun_hold = 1s;   ///< how long an overrun of the cycle is held against the pose
 
@@ -50,8 +50,8 @@ struct HealthInputs {
   HealthReason rejection = HealthReason::match_rejected;  ///< why the last one was rejected
   bool direction_unobservable = false;  ///< the last accepted match left a direction to odometry
   bool relocalising = false;            ///< a wide search is running
-  float position_variance_m2 =
-      0.0F;  ///< larger eigenvalue or trace of the position part; a NaN counts as too large
+  /// Larger eigenvalue or trace of the position part; a NaN counts as too large.
+  float position_variance_m2 = 0.0F;
   std::uint32_t overruns = 0;  ///< of the cycle since start, modulo 2^32
   bool cycle_fault = false;    ///< the executive gave up
   bool configuration_refused = false;

@@ -11,6 +11,7 @@
 #include "picolo/geometry/pose2.hpp"
 #include "picolo/localisation/profile.hpp"
 #include "picolo/map/rolling_map.hpp"
+#include "picolo/matching/correlative.hpp"
 #include "picolo/matching/gauss_newton.hpp"
 #include "picolo/odometry/heading_correction.hpp"
 #include "picolo/undistort/undistorter.hpp"
@@ -32,18 +33,44 @@ struct PredictionNoise {
   float weight = 0.3F;  ///< of the odometry term against the scan
 };
 
+/// When the start may be too far off for Gauss-Newton: correlative search first, the best
+/// candidates refined beside the prediction.
+struct SearchConfig {
+  bool enabled = true;
+  float after_m = 0.3F;  ///< of motion since the last match
+  float after_rad = 0.25F;
+  float below_inlier_share = 0.5F;  ///< or when the refined prediction fits this badly
+  float min_half_m = 0.3F;  ///< the window: three sigma of the prediction, within these limits
+  float max_half_m = 0.6F;
+  float min_half_rad = 0.1745F;
+  float max_half_rad = 0.6109F;
+  float wide_half_m = 1.2F;  ///< after a glitch of the odometry: about the last pose
+  float wide_half_rad = 2.0944F;
+  float wide_gain = 0.2F;  ///< a wide match is taken only when it fits so much more of the points
+  std::size_t lookups_per_step = 8192;
+  CorrelativeConfig correlative{
+      .score = {.prior_weight = 0.03F}};  ///< the prior carries its weight already
+  [[nodiscard]] constexpr bool valid() const {
+    return after_m >= 0.0F && after_rad >= 0.0F && min_half_m > 0.0F && max_half_m >= min_half_m &&
+           min_half_rad > 0.0F && max_half_rad >= min_half_rad && wide_half_m > 0.0F &&
+           wide_half_rad > 0.0F && wide_half_rad <= 3.1416F && wide_gain >= 0.0F &&
+           lookups_per_step > 0 && correlative.valid();
+  }
+};
+
 struct LocaliserConfig {
   MapConfig map{};  ///< of the fine grid; cell size and field radius come from the profile
   GaussNewtonConfig coarse{.max_iterations = 5, .converged_m = 0.01F, .converged_rad = 2e-3F};
   GaussNewtonConfig fine{};
   bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
   PredictionNoise noise{};
+  SearchConfig search{};
   HeadingCorrectionConfig heading{};
-  bool learn_heading = true;       ///< correct the odometry's heading by what matches taught
-  float min_inlier_share =
-      0.30F;  ///< a match with fewer points near known obstacles may not move the pose nor the map
-  float insert_every_m =
-      0.0F;  ///< a scan enters the map only after this much motion since the last that did, ...
+  bool learn_heading = true;  ///< correct the odometry's heading by what matches taught
+  /// A match with fewer points near known obstacles may not move the pose nor the map.
+  float min_inlier_share = 0.30F;
+  /// A scan enters the map only after this much motion since the last that did, ...
+  float insert_every_m = 0.0F;
   float insert_every_rad = 0.0F;  ///< ... or this much turn
   int ray_stop_cells = 2;         ///< rays clear cells up to this many short of their end
   float max_insert_range_m = 30.0F;
@@ -51,8 +78,8 @@ struct LocaliserConfig {
   [[nodiscard]] constexpr bool valid() const {
     return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
            min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
-           ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && max_insert_range_m > 0.0F &&
-           max_repair_tiles > 0;
+           ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && search.valid() &&
+           max_insert_range_m > 0.0F && max_repair_tiles > 0;
   }
 };
 
@@ -62,6 +89,8 @@ struct LocaliserCounters {
   std::uint32_t sweeps = 0;
   std::uint32_t matched = 0;  ///< accepted, the first sweep not counted
   std::uint32_t rejected = 0;
+  std::uint32_t searched = 0;                   ///< sweeps with a correlative search
+  std::uint32_t searched_wide = 0;              ///< of these, with a wide one
   std::uint32_t inserted = 0;                   ///< sweeps that entered the map
   std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
 };
@@ -83,7 +112,8 @@ class LocaliserCore {
   /// `odometry_valid`: sweep.odom_T_base is real; otherwise the pose is predicted to stand still.
   /// `invalid_argument`: configuration, or a sweep is still being worked on.
   Status begin(const UndistortedSweep& sweep, bool odometry_valid);
-  /// One Gauss-Newton iteration. True when the match is over.
+  /// One slice: a Gauss-Newton iteration, or `search.lookups_per_step` lookups of a search. True
+  /// when the match is over.
   bool match_step();
   /// Up to `max_rays` beams into the map, then repairs of the field. True when the sweep is done.
   bool map_step(std::size_t max_rays);
@@ -106,9 +136,16 @@ class LocaliserCore {
   [[nodiscard]] const LocaliserConfig& config() const { return config_; }
 
  private:
-  void start_match(const Pose2d& prediction, bool odometry_valid);
-  [[nodiscard]] PosePrior prior_at(const GridWindow& window, const Pose2d& prediction,
-                                   bool odometry_valid) const;
+  /// What one slice of the match does.
+  enum class Stage : std::uint8_t { coarse, refine, search };
+
+  void start_match();
+  void refine(const Pose2f& start);
+  void consider(const MatchReport& report);
+  [[nodiscard]] bool begin_search();
+  [[nodiscard]] bool begin_wide_search();
+  [[nodiscard]] bool next_candidate();
+  [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
   void start_map_update();
   void add_points(std::size_t max_points, bool hits);
@@ -119,8 +156,16 @@ class LocaliserCore {
   GaussNewtonMatcher<DistanceFieldView> coarse_matcher_;
   GaussNewtonMatcher<DistanceFieldView> fine_matcher_;
   UndistortedSweep sweep_{};
+  CorrelativeSearch search_;
   MatchRequest request_{};
   MatchReport report_{};
+  float translation_sigma_m_ = 0.0F;
+  float rotation_sigma_rad_ = 0.0F;
+  std::size_t candidate_ = 0;
+  Stage stage_ = Stage::refine;
+  bool searched_ = false;
+  bool searched_wide_ = false;
+  bool has_report_ = false;
   LocaliserPhase phase_ = LocaliserPhase::idle;
   Pose2d prediction_{};
   Pose2d map_T_base_{};
@@ -133,7 +178,6 @@ class LocaliserCore {
   Timestamp reference_{};
   bool started_ = false;
   bool with_odometry_ = false;
-  bool on_coarse_ = false;
   bool accepted_ = false;
   bool adding_hits_ = false;
   std::size_t next_point_ = 0;

@@ -16,15 +16,15 @@
 
 namespace picolo::inline v0 {
 
-inline constexpr int kTileCells =
-    16;  ///< the window moves, and the field is repaired, in tiles of this size
+/// The window moves, and the field is repaired, in tiles of this size.
+inline constexpr int kTileCells = 16;
 inline constexpr int kMaxFieldRadius = 10;  ///< cells; the field's bytes are exact up to here
 
 struct MapConfig {
   float cell_m = 0.05F;
   int field_radius_cells = 10;  ///< distances are truncated here
-  std::int8_t hit =
-      40;  ///< log-odds are in steps of the configuration's own making: only their ratios matter
+  /// Log-odds are in steps of the configuration's own making: only their ratios matter.
+  std::int8_t hit = 40;
   std::int8_t miss = -10;
   std::int8_t low = -60;
   std::int8_t high = 100;
@@ -61,7 +61,8 @@ class RollingMapCore {
   /// or one copy of the whole window.
   bool follow(double x_m, double y_m);
 
-  /// Starts a scan: every cell changes at most once until the next call. Cost: O(cells / 32) over the rows that the last one touched.
+  /// Starts a scan: every cell changes at most once until the next call. Cost: O(cells / 32) over
+  /// the rows that the last one touched.
   void begin_scan();
   /// One end of a beam, window coordinates; outside of the window it has no effect. Cost: O(1), or
   /// O(radius^2) for a new obstacle.
@@ -94,7 +95,7 @@ class RollingMapCore {
   float field_reach_m_ = 0.0F;
   float cells_per_m_ = 0.0F;
   std::array<std::uint8_t, kMaxFieldRadius * kMaxFieldRadius + 1>
-      byte_of_square_{};  // squared cells -> field byte
+      byte_of_square_{};       // squared cells -> field byte
   int first_changed_row_ = 0;  // of the current scan: what begin_scan has to forget
   int last_changed_row_ = -1;
   int stale_count_ = 0;

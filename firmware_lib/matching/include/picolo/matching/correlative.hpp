@@ -62,6 +62,9 @@ class CorrelativeSearch {
   Status begin(const DistanceFieldView& field, const PointsView& points, const SearchWindow& window,
                const PosePrior& prior = {});
 
+  /// The largest half side of a window that `begin` takes on this field.
+  [[nodiscard]] float max_half_m(const DistanceFieldView& field) const;
+
   /// Looks up about `max_lookups` more cells (at least one point's); true when the search is over.
   /// Cost: about 8 instructions a lookup.
   bool step(std::size_t max_lookups);

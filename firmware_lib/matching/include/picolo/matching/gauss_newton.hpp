@@ -23,8 +23,8 @@ struct GaussNewtonConfig {
   float max_total_rad = 0.6F;
   float max_condition = 1000.0F;
   float sigma_m = 0.05F;  ///< of one residual
-  float effective_points =
-      60.0F;  ///< neighbouring beams are not independent: information counts at most this many
+  /// Neighbouring beams are not independent: information counts at most this many.
+  float effective_points = 100.0F;
   float kernel_m = 0.15F;  ///< Cauchy kernel's width; 0 switches the kernel off
   float inlier_m = 0.10F;
   [[nodiscard]] constexpr bool valid() const {

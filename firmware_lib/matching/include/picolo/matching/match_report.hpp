@@ -40,10 +40,12 @@ struct MatchRequest {
 struct MatchReport {
   MatchOutcome outcome = MatchOutcome::too_few_points;
   int iterations = 0;
-  Pose2f pose{};                 ///< window_T_base
-  Matrix3f scan_information{};   ///< of the scan alone, window axes (1/m^2, 1/(m rad), 1/rad^2)
-  Matrix3f covariance{};         ///< inverse of scan and prior information together
-  float condition = 0.0F;        ///< of the scan information, theta scaled to metres
+  Pose2f pose{};                ///< window_T_base
+  Matrix3f scan_information{};  ///< of the scan alone, window axes (1/m^2, 1/(m rad), 1/rad^2)
+  Matrix3f covariance{};        ///< inverse of scan and prior information together
+  float condition = 0.0F;       ///< of the scan information, theta scaled to metres
+  float cost = 0.0F;  ///< robust squared residuals over sigma plus the prior's part; comparable
+                      ///< between starts of one request
   float mean_residual_m = 0.0F;  ///< mean of (1 - M) * reach over points inside of the window
   float inlier_share = 0.0F;     ///< of the points: within the inlier distance of an obstacle
   int points = 0;                ///< points that took part

@@ -19,6 +19,8 @@ namespace picolo::inline v0 {
 struct FieldSums {
   float xx = 0.0F, xy = 0.0F, xt = 0.0F, yy = 0.0F, yt = 0.0F, tt = 0.0F;  // sum w J'J
   float bx = 0.0F, by = 0.0F, bt = 0.0F;                                   // sum w J'r
+  float robust_squares =
+      0.0F;               // sum w r^2: grows to the kernel's width squared a point and no further
   float residual = 0.0F;  // sum r over points inside
   float inside = 0.0F;
   float inliers = 0.0F;
@@ -41,8 +43,8 @@ inline float fold(const Lanes& lanes) {
 }
 
 struct LaneSums {
-  Lanes xx{}, xy{}, xt{}, yy{}, yt{}, tt{}, bx{}, by{}, bt{}, residual{}, inside{}, inliers{},
-      squared_radius{};
+  Lanes xx{}, xy{}, xt{}, yy{}, yt{}, tt{}, bx{}, by{}, bt{}, robust_squares{}, residual{},
+      inside{}, inliers{}, squared_radius{};
 };
 
 template <typename Field>
@@ -77,6 +79,7 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_
     sums.bx[l] += wx * residual;
     sums.by[l] += wy * residual;
     sums.bt[l] += wt * residual;
+    sums.robust_squares[l] += weight * residual * residual;
     sums.residual[l] += residual;
     sums.inside[l] += inside[l];
     sums.inliers[l] += residual <= walk.inlier_residual ? inside[l] : 0.0F;
@@ -102,19 +105,13 @@ inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const Poi
     }
     add_lanes(field, walk, x_m.data(), y_m.data(), sums);
   }
-  return {fold(sums.xx),
-          fold(sums.xy),
-          fold(sums.xt),
-          fold(sums.yy),
-          fold(sums.yt),
-          fold(sums.tt),
-          fold(sums.bx),
-          fold(sums.by),
-          fold(sums.bt),
-          fold(sums.residual),
-          fold(sums.inside),
-          fold(sums.inliers),
-          fold(sums.squared_radius)};
+  return {fold(sums.xx),       fold(sums.xy),
+          fold(sums.xt),       fold(sums.yy),
+          fold(sums.yt),       fold(sums.tt),
+          fold(sums.bx),       fold(sums.by),
+          fold(sums.bt),       fold(sums.robust_squares),
+          fold(sums.residual), fold(sums.inside),
+          fold(sums.inliers),  fold(sums.squared_radius)};
 }
 
 }  // namespace picolo::inline v0

@@ -18,11 +18,11 @@ namespace picolo::inline v0 {
 struct DeadReckoningConfig {
   bool use_gyro = true;
   float gyro_sign = 1.0F;  ///< -1 for a sensor mounted upside down
-  Duration gyro_hold =
-      25ms;  ///< the last rate holds for at most this long; beyond it the wheels turn alone
+  /// The last rate holds for at most this long; beyond it the wheels turn alone.
+  Duration gyro_hold = 25ms;
   Duration standstill = 500ms;  ///< wheels without a count for this long: the gyro shows its bias
-  float max_bias_radps =
-      0.15F;               ///< a larger rate at standstill is no bias (somebody pushes the vehicle)
+  /// A larger rate at standstill is no bias (somebody pushes the vehicle).
+  float max_bias_radps = 0.15F;
   int bias_samples = 200;  ///< averaging length of the bias
   [[nodiscard]] constexpr bool valid() const {
     return gyro_hold >= Duration{0} && standstill > Duration{0} && max_bias_radps > 0.0F &&

@@ -9,18 +9,20 @@
 namespace picolo::inline v0 {
 
 struct HeadingCorrectionConfig {
-  double scale_sigma = 0.05;            ///< prior belief about a
-  double per_m_sigma_rad = 0.05;        ///< prior belief about b
-  double scale_walk = 1e-3;             ///< how far a wanders in one update
-  double per_m_walk_rad = 1e-3;         ///< how far b wanders in one update
-  double gate_sigma = 3.0;              ///< a measurement further off teaches nothing
+  double scale_sigma = 0.05;      ///< prior belief about a
+  double per_m_sigma_rad = 0.05;  ///< prior belief about b
+  double scale_walk = 1e-3;       ///< how far a wanders in one update
+  double per_m_walk_rad = 1e-3;   ///< how far b wanders in one update
+  double gate_sigma = 3.0;        ///< a measurement further off teaches nothing
   [[nodiscard]] constexpr bool valid() const {
-    return scale_sigma >= 0.0 && per_m_sigma_rad >= 0.0 && scale_walk >= 0.0 && per_m_walk_rad >= 0.0 && gate_sigma > 0.0;
+    return scale_sigma >= 0.0 && per_m_sigma_rad >= 0.0 && scale_walk >= 0.0 &&
+           per_m_walk_rad >= 0.0 && gate_sigma > 0.0;
   }
 };
 
-/// Kalman filter of two states: true turn = (1 + a) * odometry's turn + b * distance. a is a wrong track width, b wheels of unequal
-/// radius. Fed by accepted matches, used by the prediction only: odom_T_base itself stays what the sensors said.
+/// Kalman filter of two states: true turn = (1 + a) * odometry's turn + b * distance. a is a wrong
+/// track width, b wheels of unequal radius. Fed by accepted matches, used by the prediction only:
+/// odom_T_base itself stays what the sensors said.
 /// Cost: about 40 operations in double an update. Context: cycle only.
 class HeadingCorrection {
  public:

@@ -23,8 +23,8 @@ inline constexpr std::size_t kMaxUnknowns = 9;
 struct Observability {
   std::size_t unknowns = 0;
   std::size_t rank = 0;  ///< singular values above the tolerance
-  double condition =
-      0.0;  ///< largest over smallest singular value; infinity when the smallest is 0
+  /// Largest over smallest singular value; infinity when the smallest is 0.
+  double condition = 0.0;
   std::array<double, kMaxUnknowns> singular_values{};  ///< descending
   std::array<double, kMaxUnknowns>
       weakest{};  ///< right singular vector of the smallest singular value

@@ -38,8 +38,8 @@ struct LogPlayerConfig {
   WheelScriptConfig script{};
   WheelPairConfig wheels{};
   Duration start_up = 500ms;  ///< standing before the first scan: the nodes boot and are started
-  Duration think_time =
-      150ms;  ///< standing after a scan, so that its match ends before the next movement
+  /// Standing after a scan, so that its match ends before the next movement.
+  Duration think_time = 150ms;
   std::uint32_t can_bit_rate = 500'000;
   Duration watchdog_period = 500ms;
   FaultList faults{};

@@ -12,12 +12,12 @@
 namespace picolo::inline v0::sim {
 
 inline constexpr std::size_t kWitMotionFrameSize = 11;
-inline constexpr std::uint8_t kWitMotionAcceleration =
-    0x51;  ///< x y z in 16 g / 32768, temperature in 0.01 deg C
-inline constexpr std::uint8_t kWitMotionRate =
-    0x52;  ///< x y z in 2000 deg/s / 32768, voltage in 0.01 V
-inline constexpr std::uint8_t kWitMotionAngle =
-    0x53;  ///< roll pitch yaw in 180 deg / 32768, version
+/// X y z in 16 g / 32768, temperature in 0.01 deg C.
+inline constexpr std::uint8_t kWitMotionAcceleration = 0x51;
+/// X y z in 2000 deg/s / 32768, voltage in 0.01 V.
+inline constexpr std::uint8_t kWitMotionRate = 0x52;
+/// Roll pitch yaw in 180 deg / 32768, version.
+inline constexpr std::uint8_t kWitMotionAngle = 0x53;
 
 struct WitMotionFrame {
   std::uint8_t type = kWitMotionAcceleration;

@@ -28,16 +28,16 @@ struct CanopenWheelsCounters {
   std::uint32_t samples = 0;       ///< complete samples
   std::uint32_t replaced = 0;      ///< samples nobody took before the next one
   std::uint32_t foreign = 0;       ///< frames of somebody else
-  std::uint32_t short_frames =
-      0;  ///< TPDOs shorter than their mapping, heartbeats and emergencies without content
+  /// TPDOs shorter than their mapping, heartbeats and emergencies without content.
+  std::uint32_t short_frames = 0;
   std::uint32_t bad_states = 0;    ///< heartbeats with a state that CiA 301 does not know
   std::uint32_t unpaired = 0;      ///< counts without their partner
   std::uint32_t out_of_range = 0;  ///< positions beyond the modulus
   std::uint32_t jumps = 0;         ///< restarts that nobody announced
   std::uint32_t syncs_seen = 0;
   std::uint32_t syncs_sent = 0;
-  std::uint32_t syncs_skipped =
-      0;  ///< periods without SYNC because `service` came late or the bus refused
+  /// Periods without SYNC because `service` came late or the bus refused.
+  std::uint32_t syncs_skipped = 0;
   std::uint32_t sync_conflicts = 0;  ///< SYNC of somebody else while we produce it
   std::uint32_t tx_refused = 0;      ///< frames that the bus did not take
 };

@@ -56,8 +56,8 @@ struct CanopenWheelsConfig {
   int wheel_count = 2;
   bool produce_sync = false;  ///< else another node does, or the TPDOs are timer driven
   Duration sync_period = 10ms;
-  std::uint8_t sync_counter_overflow =
-      0;                       ///< object 0x1019: 0 = SYNC without counter, else 2 to 240
+  /// Object 0x1019: 0 = SYNC without counter, else 2 to 240.
+  std::uint8_t sync_counter_overflow = 0;
   Duration pair_window = 8ms;  ///< see SyncPairingConfig
   canopen::NodeMonitorConfig nodes{};
 

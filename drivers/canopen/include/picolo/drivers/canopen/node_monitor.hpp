@@ -17,8 +17,8 @@ enum class NodeState : std::uint8_t { silent, booted, pre_operational, operation
 /// Counters are never reset.
 struct NodeHealth {
   std::uint8_t node = 0;
-  NodeState state =
-      NodeState::silent;   ///< silent: nothing heard since start; lost: heard once, not any more
+  /// Silent: nothing heard since start; lost: heard once, not any more.
+  NodeState state = NodeState::silent;
   Timestamp last_heard{};  ///< any frame of the node
   std::uint32_t boots = 0;
   std::uint32_t losses = 0;

@@ -59,8 +59,8 @@ class Ld06Readings {
   [[nodiscard]] bool passes_zero(std::uint32_t angle);
 
   Ld06ReadingConfig config_;
-  std::uint32_t last_angle_ =
-      0;  ///< in 1/11 of 0.01 degrees, so that every point is a whole number
+  /// In 1/11 of 0.01 degrees, so that every point is a whole number.
+  std::uint32_t last_angle_ = 0;
   std::int32_t since_start_ = 0;  ///< angle travelled since the last start
   bool has_last_ = false;
 };

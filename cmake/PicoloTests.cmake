@@ -3,7 +3,7 @@
 # picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [TIMEOUT s]): all *.cpp of the calling folder form one
 # Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels. The first label is
 # the group: unit, property, drivers, ports, integration ...; `slow` and `fuzz` beside it keep a test out of the short run.
-# PICOLO_TEST_DATA is where recordings are looked for; tests that need one call require_data() of tests/support.
+# PICOLO_TEST_DATA is where recordings are looked for; tests that need one say PICOLO_NEED_DATA (tests/support).
 include(GoogleTest)
 
 set(PICOLO_TEST_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Folder with the recorded data sets")
@@ -22,8 +22,7 @@ function(picolo_test name)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE picolo_test_support ${ARG_DEPENDS} picolo::picolo
     GTest::gmock GTest::gtest_main picolo_warnings)
-  target_compile_definitions(test_${name} PRIVATE
-    PICOLO_TEST_DATA="${PICOLO_TEST_DATA}" PICOLO_SOURCE_DIR="${PROJECT_SOURCE_DIR}" ${ARG_DEFINITIONS})
+  target_compile_definitions(test_${name} PRIVATE ${ARG_DEFINITIONS})
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
     PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ENVIRONMENT "RC_PARAMS=seed=1")
 endfunction()

@@ -10,6 +10,7 @@
 
 #include "include_rules.hpp"
 #include "source_tree.hpp"
+#include "support/paths.hpp"
 
 namespace picolo::layout {
 namespace {
@@ -19,7 +20,7 @@ std::size_t violations_of(const std::string& path, const std::string& include) {
 }
 
 TEST(IncludeTable, HoldsForEveryFileOfTheTree) {
-  ASSERT_GT(source_tree().size(), 50U) << "the tree was not found at " << PICOLO_SOURCE_DIR;
+  ASSERT_GT(source_tree().size(), 50U) << "the tree was not found at " << test::source_dir();
   for (const SourceFile& file : source_tree()) {
     for (const Violation& violation : include_violations(file)) {
       ADD_FAILURE_AT(violation.path.c_str(), violation.line) << violation.rule;

@@ -11,6 +11,8 @@
 #include <regex>
 #include <sstream>
 
+#include "support/paths.hpp"
+
 namespace picolo::layout {
 namespace {
 
@@ -98,7 +100,7 @@ std::string read(const fs::path& path) {
 
 template <typename Wanted>
 std::vector<SourceFile> collect(const std::vector<std::string>& folders, Wanted wanted) {
-  const fs::path root{PICOLO_SOURCE_DIR};
+  const fs::path root = test::source_dir();
   std::vector<SourceFile> files;
   for (const std::string& folder : folders) {
     if (!fs::exists(root / folder)) { continue; }

@@ -31,7 +31,7 @@ struct Violation {
 /// Cuts `text` into lines and finds its includes.
 SourceFile parse_source(const std::string& path, const std::string& text);
 
-/// Every .cpp and .hpp below the code folders of the tree at PICOLO_SOURCE_DIR.
+/// Every .cpp and .hpp below the code folders of the tree at test::source_dir().
 const std::vector<SourceFile>& source_tree();
 
 /// CMakeLists.txt, *.cmake and scripts of the tree.

@@ -10,12 +10,14 @@
 #include <cstdlib>
 #include <filesystem>
 #include <string>
+
+#include "support/paths.hpp"
 #include <string_view>
 
 namespace picolo::test {
 
 inline std::filesystem::path data_path(const std::string& name) {
-  return std::filesystem::path{PICOLO_TEST_DATA} / name;
+  return data_dir() / name;
 }
 
 /// Whether PICOLO_REQUIRE, a list like "data,arm,vm", names the group.

@@ -156,8 +156,8 @@ TEST_F(ImuUndistortion, GivenTheYawRateAsGyroThenTheTurningSweepsAreAsSharpAsWit
     count(at_start, undistorted(undistorter_, sweep, frozen), instant);
   }
   std::printf(
-      "cells of 3 cm: one instant %zu, wheel poses %zu, yaw rate as gyro %zu, with the wheels' "
-      "speed %zu\n",
+      "cells of 3 cm: one instant %zu, wheel poses %zu, yaw rate as gyro %zu, its lag taken out "
+      "%zu\n",
       instant.size(), by_wheels.size(), by_gyro.size(), by_prompt_gyro.size());
   EXPECT_NEAR(static_cast<double>(instant.size()), 3525.0, 2.0);
   EXPECT_NEAR(static_cast<double>(by_wheels.size()), 1747.0, 10.0);

@@ -48,6 +48,7 @@ void NdtMatcher::begin(const NdtView& view, const MatchRequest& request) {
   report_.pose = request.start;
   report_.covariance = Matrix3f::diagonal(kUnknownVariance, kUnknownVariance, kUnknownVariance);
   cost_ = 0.0F;
+  blur_ = config_.first_blur;
   started_ = false;
   degenerate_ = false;
   done_ = false;
@@ -69,7 +70,8 @@ bool NdtMatcher::finish(MatchOutcome outcome) {
 
 NdtMatcher::Linearised NdtMatcher::linearise(const Pose2f& pose) const {
   const SinCos<float> yaw = sin_cos(pose.theta_rad);
-  const NdtSums sums = walk_ndt(view_, {pose.x_m, pose.y_m, yaw.sine, yaw.cosine}, request_.points);
+  const NdtSums sums = walk_ndt(
+      view_, {pose.x_m, pose.y_m, yaw.sine, yaw.cosine, 1.0F / (blur_ * blur_)}, request_.points);
   Linearised at;
   at.points = sums.points;
   at.inliers = sums.inliers;
@@ -130,14 +132,26 @@ bool NdtMatcher::plan_step() {
   return true;
 }
 
+/// The stage has converged: the next sharper one, or the end.
+bool NdtMatcher::settle() {
+  if (blur_ > 1.0F) {
+    blur_ = std::max(1.0F, 0.5F * blur_);
+    started_ = false;
+    return false;
+  }
+  return finish(degenerate_ ? MatchOutcome::degenerate : MatchOutcome::converged);
+}
+
 bool NdtMatcher::step() {
   if (done_) { return true; }
   if (!started_) {
     started_ = true;
     if (!accept(report_.pose, linearise(report_.pose))) { return true; }
   }
-  const MatchOutcome settled = degenerate_ ? MatchOutcome::degenerate : MatchOutcome::converged;
-  if (is_below(config_.converged_m, config_.converged_rad, step_)) { return finish(settled); }
+  // Early stages need not converge to the millimetre.
+  if (is_below(blur_ * config_.converged_m, blur_ * config_.converged_rad, step_)) {
+    return settle();
+  }
   const Pose2f trial = moved_by(report_.pose, step_);
   if (is_beyond(config_.max_total_m, config_.max_total_rad, request_.start, trial)) {
     return finish(MatchOutcome::step_limit);

@@ -104,6 +104,30 @@ TEST(NdtSums, GivenAnyPoseThenTheInformationIsPositiveDefinite) {
   }
 }
 
+TEST(NdtSums, GivenABlurThenScoreAndGradientAreThoseOfWiderCells) {
+  const auto map = drawn(test::furnished_room());
+  const float x_m = 1.7F;
+  const float y_m = 2.9F;
+  const PointsView point{std::span{&x_m, 1}, std::span{&y_m, 1}};
+  NdtWalk walk = walk_of(to_window(map->core().window(), {0.0, 0.0, 0.1}));
+  float last = 0.0F;
+  for (const float blur : {1.0F, 2.0F, 4.0F}) {
+    walk.sharpness = 1.0F / (blur * blur);
+    const NdtSums here = walk_ndt(map->core().view(), walk, point);
+    EXPECT_GE(here.score, last) << "a wider cell is never less likely";
+    last = here.score;
+    constexpr float kStep = 1e-3F;
+    NdtWalk moved = walk;
+    moved.y_m += kStep;
+    const NdtSums above = walk_ndt(map->core().view(), moved, point);
+    moved.y_m -= 2 * kStep;
+    const NdtSums below = walk_ndt(map->core().view(), moved, point);
+    EXPECT_NEAR(here.gradient[1], -(above.score - below.score) / (2 * kStep),
+                0.02F * std::abs(here.gradient[1]) + 0.05F);
+  }
+  EXPECT_GT(last, 0.1F);
+}
+
 TEST(NdtSums, GivenPointsThatMeetNoCellThenTheyAddNothing) {
   const auto map = drawn(test::furnished_room());
   const std::vector<float> far{1e6F, -7.0F, std::nanf("")};
@@ -122,10 +146,15 @@ TEST_P(Ndt, FindsThePoseFromADisturbedStartAndRaisesTheScoreAtEachStep) {
   matcher.begin(map->core().view(),
                 {scan.view(), to_window(map->core().window(), truth * GetParam()), {}});
   float cost = 3e38F;
+  float blur = matcher.blur();
+  EXPECT_EQ(blur, 4.0F);
   while (!matcher.step()) {
-    EXPECT_LE(matcher.cost(), cost);
-    cost = matcher.cost();
+    EXPECT_LE(matcher.blur(), blur);
+    if (matcher.blur() == blur) { EXPECT_LE(matcher.cost(), cost); }
+    cost = matcher.blur() == blur ? matcher.cost() : 3e38F;
+    blur = matcher.blur();
   }
+  EXPECT_EQ(blur, 1.0F);
   const MatchReport report = matcher.report();
   EXPECT_EQ(report.outcome, MatchOutcome::converged);
   const Pose2d error = between(truth, to_map(map->core().window(), report.pose));
@@ -141,7 +170,8 @@ TEST_P(Ndt, FindsThePoseFromADisturbedStartAndRaisesTheScoreAtEachStep) {
 INSTANTIATE_TEST_SUITE_P(Starts, Ndt,
                          ::testing::Values(Pose2d{0, 0, 0}, Pose2d{0.2, 0, 0},
                                            Pose2d{0, -0.2, 0.05}, Pose2d{-0.15, 0.15, -0.1},
-                                           Pose2d{0.3, 0.2, 0.0}, Pose2d{0, 0, 0.2}));
+                                           Pose2d{0.3, 0.2, 0.0}, Pose2d{0, 0, 0.2},
+                                           Pose2d{0.35, -0.3, 0.3}));
 
 TEST(NdtMatcher, GivenACorridorThenTheOpenDirectionIsLeftAlone) {
   auto map = std::make_unique<Map>();

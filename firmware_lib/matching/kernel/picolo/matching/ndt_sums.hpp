@@ -29,6 +29,7 @@ struct NdtSums {
 
 struct NdtWalk {
   float x_m, y_m, sine, cosine;
+  float sharpness = 1.0F;  ///< of every cell: factor on the inverse covariance, below 1 to widen
 };
 
 struct NdtLanes {
@@ -66,9 +67,9 @@ inline void add_ndt_point(const NdtView& view, const NdtWalk& walk, float x_m, f
     Point2f at{};
     const NdtCell* const cell = ndt_cell_at(view, grid, rx + walk.x_m, ry + walk.y_m, at);
     if (cell == nullptr) { continue; }
-    const float a = cell->inverse_xx;
-    const float b = cell->inverse_xy;
-    const float c = cell->inverse_yy;
+    const float a = walk.sharpness * cell->inverse_xx;
+    const float b = walk.sharpness * cell->inverse_xy;
+    const float c = walk.sharpness * cell->inverse_yy;
     const float qx = at.x_m - cell->mean_x_m;
     const float qy = at.y_m - cell->mean_y_m;
     const float sx = a * qx + b * qy;  // S^-1 q
@@ -77,7 +78,7 @@ inline void add_ndt_point(const NdtView& view, const NdtWalk& walk, float x_m, f
     const float away_m = hypotenuse(sx, sy) / (a + c);
     nearest_m = met && nearest_m < away_m ? nearest_m : away_m;
     met = true;
-    inlier |= squared <= 9.0F;
+    inlier |= squared <= 9.0F * walk.sharpness;
     if (!(squared < kNothing)) { continue; }
     const float e = exponential(-0.5F * squared);
     const float st = sy * rx - sx * ry;  // q' S^-1 dq/dtheta, dq/dtheta = (-ry, rx)
@@ -95,12 +96,15 @@ inline void add_ndt_point(const NdtView& view, const NdtWalk& walk, float x_m, f
     sums.hyy[l] += e * (c - sy * sy);
     sums.hyt[l] += e * (ty - sy * st);
     sums.htt[l] += e * ((tt + curve) - st * st);
-    const float ux = cell->stiff_xy * rx - cell->stiff_xx * ry;
-    const float uy = cell->stiff_yy * rx - cell->stiff_xy * ry;
-    sums.ixx[l] += e * cell->stiff_xx;
-    sums.ixy[l] += e * cell->stiff_xy;
+    const float kxx = walk.sharpness * cell->stiff_xx;
+    const float kxy = walk.sharpness * cell->stiff_xy;
+    const float kyy = walk.sharpness * cell->stiff_yy;
+    const float ux = kxy * rx - kxx * ry;
+    const float uy = kyy * rx - kxy * ry;
+    sums.ixx[l] += e * kxx;
+    sums.ixy[l] += e * kxy;
     sums.ixt[l] += e * ux;
-    sums.iyy[l] += e * cell->stiff_yy;
+    sums.iyy[l] += e * kyy;
     sums.iyt[l] += e * uy;
     sums.itt[l] += e * (rx * uy - ry * ux);
   }

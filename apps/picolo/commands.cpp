@@ -40,6 +40,8 @@ ExitCode run(int argc, char** argv) {
   Action action;
   add_demo(app, action);
   add_undistort(app, action);
+  add_evaluate(app, action);
+  add_odometry3d(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -38,7 +38,10 @@ struct Range {
   }
   void pad(double share) {
     if (!(low <= high)) { low = high = 0.0; }
-    const double width = high > low ? high - low : std::max(std::abs(high), 1.0) * 0.1;
+    // A constant, up to rounding, is shown as one: ticks finer than rounding would never end.
+    const double size = std::max(std::abs(low), std::abs(high));
+    const bool constant = !(high - low > 1e-9 * size);
+    const double width = constant ? std::max(size, 1.0) * 0.1 : high - low;
     low -= share * width;
     high += share * width;
   }

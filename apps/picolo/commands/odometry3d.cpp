@@ -175,7 +175,7 @@ void draw(const Run& run, const std::optional<host::SpatialTrajectory>& referenc
         fmt::format(", APE rmse {:.3f} m ({:.3f} m aligned), RPE over 10 scans {:.3f} m",
                     score->ape.rmse, score->ape_aligned.rmse, score->rpe_m.rmse);
   }
-  picture.points.push_back({run.map_m, {90, 96, 110, 70}, 0.8, "edges and surfaces"});
+  picture.points.push_back({run.map_m, {70, 76, 92, 150}, 1.0, "edges and surfaces"});
   if (reference) {
     picture.lines.push_back(line_of(reference->poses, host::palette::kOdometry, 4.0, "reference"));
   }

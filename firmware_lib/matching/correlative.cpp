@@ -133,7 +133,7 @@ void CorrelativeSearch::end_angle() {
     for (int i = 0; i < side_; ++i) {
       std::uint16_t& score = plane[static_cast<std::size_t>(j * side_ + i)];
       const std::int32_t left = score - line - along_x[static_cast<std::size_t>(i)];
-      score = static_cast<std::uint16_t>(std::max(left, 0));
+      score = static_cast<std::uint16_t>(std::max<std::int32_t>(left, 0));
     }
   }
   if (angle_ > -last_angle_) {

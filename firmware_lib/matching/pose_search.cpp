@@ -119,7 +119,7 @@ void PoseSearch::push_next_row() {
 
 bool PoseSearch::step(std::uint32_t max_nodes) {
   const std::uint32_t start = tree_.nodes();
-  while (phase_ != Phase::done && tree_.nodes() - start < std::max(max_nodes, 1U)) {
+  while (phase_ != Phase::done && tree_.nodes() - start < std::max<std::uint32_t>(max_nodes, 1)) {
     if (config_.max_nodes > 0 && tree_.nodes() >= config_.max_nodes) {
       phase_ = Phase::done;
       break;

@@ -111,7 +111,7 @@ std::int32_t PoseTree::bound_of(const Node& node) {
     if (i >= width || j >= height) { continue; }
     sum += table_[cells[static_cast<std::ptrdiff_t>(j) * width + i]];
   }
-  return std::max(sum - least_penalty(node, size), 0);
+  return std::max<std::int32_t>(sum - least_penalty(node, size), 0);
 }
 
 std::size_t PoseTree::expand(const Node& node, std::span<Node> children) {

@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "fields.hpp"
+#include "picolo/core/time.hpp"
 
 namespace picolo::host {
 namespace {
@@ -153,7 +154,7 @@ bool odometry_never_moves(const CarmenLog& log) {
 bool stamps_increase(const CarmenLog& log) {
   return std::adjacent_find(log.scans.begin(), log.scans.end(),
                             [](const LogScan& before, const LogScan& after) {
-                              return !(after.stamp_s > before.stamp_s);
+                              return from_seconds(after.stamp_s) <= from_seconds(before.stamp_s);
                             }) == log.scans.end();
 }
 

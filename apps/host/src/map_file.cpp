@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include "picolo/host/files.hpp"
@@ -12,6 +13,11 @@
 
 namespace picolo::host {
 namespace {
+
+/// To the nanometre: -8.65, not -8.650000000000002.
+std::string metres(double value) {
+  return plain_decimal(std::round(value * 1e9) / 1e9);
+}
 
 char grey(MapCell cell) {
   switch (cell) {
@@ -68,11 +74,11 @@ void write_map(const std::filesystem::path& folder, const std::string& stem,
     }
   }
   write_file(folder / (stem + ".pgm"), pgm);
-  write_file(folder / (stem + ".yaml"),
-             fmt::format("image: {}.pgm\nmode: trinary\nresolution: {}\norigin: [{}, {}, 0.0]\n"
-                         "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
-                         stem, plain_decimal(map.resolution_m), plain_decimal(map.origin_x_m),
-                         plain_decimal(map.origin_y_m)));
+  write_file(
+      folder / (stem + ".yaml"),
+      fmt::format("image: {}.pgm\nmode: trinary\nresolution: {}\norigin: [{}, {}, 0.0]\n"
+                  "negate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n",
+                  stem, metres(map.resolution_m), metres(map.origin_x_m), metres(map.origin_y_m)));
 }
 
 }  // namespace picolo::host

@@ -65,7 +65,8 @@ struct CarmenLog {
 /// wheels.
 [[nodiscard]] bool odometry_never_moves(const CarmenLog& log);
 
-/// True when every stamp is later than the one before.
+/// True when every stamp is later than the one before, in whole microseconds as the library sees
+/// them.
 [[nodiscard]] bool stamps_increase(const CarmenLog& log);
 
 }  // namespace picolo::host

@@ -1,0 +1,164 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "commands.hpp"
+#include "direct_replay.hpp"
+#include "drive_files.hpp"
+#include "picolo/host/config_file.hpp"
+#include "picolo/host/library_config.hpp"
+#include "picolo/host/quantile.hpp"
+#include "replay_input.hpp"
+
+namespace picolo::tool {
+namespace {
+
+struct Options {
+  CommonOptions common;
+  std::string log;
+  std::string reference;
+  bool no_odometry = false;
+  std::optional<std::string> profile;
+  std::optional<float> max_range_m;
+  std::vector<double> lidar;
+};
+
+ReplaySettings settings_from(const Options& options) {
+  ReplaySettings settings;
+  host::ConfigFile file{options.common.config};
+  read(file, "localiser", settings.localiser);
+  file.read("replay", "profile", settings.profile);
+  file.read("replay", "min_range_m", settings.min_range_m);
+  file.read("replay", "max_range_m", settings.max_range_m);
+  file.reject_unknown({"demo", "undistort"});
+  settings.profile = options.profile.value_or(settings.profile);
+  settings.max_range_m = options.max_range_m.value_or(settings.max_range_m);
+  settings.use_odometry = !options.no_odometry;
+  if (options.lidar.size() == 3) {
+    settings.base_T_lidar = Pose2d{options.lidar[0], options.lidar[1], options.lidar[2]};
+  }
+  if (!RangeLimits{settings.min_range_m, settings.max_range_m}.valid()) {
+    throw host::UserError{ExitCode::usage, options.common.config,
+                          "the range limits exclude every range", "min < max, both positive"};
+  }
+  return settings;
+}
+
+void report(const DriveResult& drive, const DriveErrors& errors, const Options& options) {
+  const std::filesystem::path folder{options.common.out};
+  const bool judged = !options.reference.empty();
+  if (options.common.json) {
+    host::Json json;
+    add_counts(drive, json);
+    json["match_us"] = quantiles(drive.match_us);
+    json["total_us"] = quantiles(drive.total_us);
+    json["iterations"] = quantiles(drive.iterations);
+    json["heap_calls"] = drive.heap_calls;
+    if (judged) {
+      json["ape"] = to_json(errors.trajectory);
+      json["ape_odometry"] = to_json(errors.odometry);
+    }
+    fmt::print("{}\n", host::to_text(json));
+    return;
+  }
+  fmt::print("{} scans, {} matched, {} heap calls\n", drive.trajectory.size(),
+             drive.counters.matched, drive.heap_calls);
+  fmt::print("match {:.0f} us (p50) {:.0f} us (p99), whole scan {:.0f} us, {:.0f} us\n",
+             host::quantile(drive.match_us, 0.5), host::quantile(drive.match_us, 0.99),
+             host::quantile(drive.total_us, 0.5), host::quantile(drive.total_us, 0.99));
+  if (judged) {
+    const ErrorStatistics& ape = errors.trajectory.statistics;
+    fmt::print(
+        "APE rmse {:.4f} m, median {:.4f} m, max {:.4f} m over {} poses; odometry {:.3f} m\n",
+        ape.rmse, ape.median, ape.max, ape.count, errors.odometry.statistics.rmse);
+  }
+  fmt::print("picture: {}\n", (folder / "picture.png").string());
+}
+
+ExitCode judge(const DriveResult& drive, const DriveErrors& errors, const Options& options) {
+  if (!usable(drive)) {
+    throw host::UserError{ExitCode::refused, options.log,
+                          fmt::format("only {} of {} scans matched, the pose was lost",
+                                      drive.counters.matched, drive.trajectory.size()),
+                          "look at the picture; check range limits, lidar pose and odometry"};
+  }
+  if (!options.reference.empty() && errors.trajectory.statistics.count == 0) {
+    throw host::UserError{
+        ExitCode::refused, options.reference,
+        fmt::format("no pose within {:g} s of a scan of the log", host::kAssociationTolerance_s),
+        "is it the reference of this log?"};
+  }
+  return ExitCode::done;
+}
+
+ExitCode replay(const Options& options) {
+  const ReplaySettings settings = settings_from(options);
+  host::Diagnostics diagnostics;
+  host::LineReader reader{options.log};
+  const host::CarmenLog log = read_carmen(reader, diagnostics);
+  const ReplayInput input = prepare(log, settings, diagnostics);
+  host::TumFile reference;
+  if (!options.reference.empty()) {
+    host::LineReader reference_reader{options.reference};
+    reference = read_tum(reference_reader, diagnostics);
+  }
+  DriveResult drive = replay_directly(input, settings);
+  drive.truth = reference.poses;
+  drive.truth_name = "reference";
+  const DriveErrors errors = evaluate(drive);
+  const std::string name = std::filesystem::path{log.name}.filename().string();
+  write_drive(drive, errors, "Replay of " + name, false, options.common.out);
+  report(drive, errors, options);
+  const ExitCode whole = end_of_input(log.name, log.damage);
+  if (whole != ExitCode::done) { return whole; }
+  const ExitCode whole_reference = end_of_input(reference.name, reference.damage);
+  return whole_reference != ExitCode::done ? whole_reference : judge(drive, errors, options);
+}
+
+}  // namespace
+
+void add_replay(CLI::App& app, Action& action) {
+  auto options = std::make_shared<Options>();
+  CLI::App* command = app.add_subcommand(
+      "replay", "Localises a recorded drive: odometry and lidar scans in, poses out");
+  command->add_option("LOG", options->log, "CARMEN log (.log, .clf), plain or .gz; - for a pipe")
+      ->required();
+  add_common_options(*command, options->common);
+  command
+      ->add_option("--reference", options->reference, "Reference poses to judge by (TUM, .gz too)")
+      ->type_name("REF.tum");
+  command->add_flag("--no-odometry", options->no_odometry,
+                    "Do not give the log's odometry to the localiser");
+  command->add_option("--profile", options->profile, "How much it remembers: room, hall or site")
+      ->type_name("NAME");
+  command->add_option("--max-range", options->max_range_m, "Longer ranges are no measurements")
+      ->type_name("M");
+  command
+      ->add_option("--lidar", options->lidar,
+                   "Pose of the lidar on the vehicle, instead of the log's")
+      ->expected(3)
+      ->type_name("X Y YAW");
+  command->footer(
+      "Writes to the output folder: trajectory.tum (one pose a scan, stamps of the log),\n"
+      "odometry.tum, map.pgm + map.yaml (for ROS's map_server), picture.svg and picture.png.\n"
+      "\n"
+      "Examples:\n"
+      "  picolo replay freiburg-079.clf.gz\n"
+      "  picolo replay freiburg-079.clf.gz --reference freiburg-079_ref.tum.gz --json\n"
+      "      prints the error after alignment: \"ape\":{\"rmse\":...} in metres\n"
+      "  picolo replay hand-held.clf.gz --no-odometry --out /tmp/lidar-only\n"
+      "\n"
+      "Records: FLASER, ROBOTLASER1 (scans with odometry), or SWEEP with ODOM; other lines are\n"
+      "skipped. A log whose stamps do not increase runs on a clock of 0.1 s a scan.\n"
+      "Settings in --config FILE: [replay] profile min_range_m max_range_m; [localiser] and its\n"
+      "sub-sections map, coarse, fine, noise: the fields of LocaliserConfig by name.");
+  command->callback([&action, options] { action = [options] { return replay(*options); }; });
+}
+
+}  // namespace picolo::tool

@@ -63,7 +63,7 @@ class DirectReplay {
     result_.heap_calls += heap_trap::calls() - heap_before;
     if (!done) { return; }
     result_.total_us.push_back(processor_time_us() - begin_us);
-    if (iterations_ > 0) {
+    if (matched_) {
       result_.match_us.push_back(match_us_);
       result_.iterations.push_back(iterations_);
     }
@@ -82,8 +82,9 @@ class DirectReplay {
     }
     const double begin_us = processor_time_us();
     if (!is_ok(core().begin(undistorter_.result(), input_.use_odometry))) { return false; }
-    iterations_ = core().phase() == LocaliserPhase::matching ? 1 : 0;
-    while (!core().match_step()) { ++iterations_; }
+    matched_ = core().phase() == LocaliserPhase::matching;
+    while (!core().match_step()) {}
+    iterations_ = core().report().iterations;
     match_us_ = processor_time_us() - begin_us;
     while (!core().map_step(kRaysPerStep)) {}
     return true;
@@ -102,6 +103,7 @@ class DirectReplay {
   std::size_t next_pose_ = 0;
   double match_us_ = 0.0;
   int iterations_ = 0;
+  bool matched_ = false;
 };
 
 template <Profile P>

@@ -6,14 +6,12 @@
 
 namespace picolo::tool {
 
-void add_counts(const DriveResult& drive, host::Json& json) {
+host::Json outcomes_json(const LocaliserCounters& counters) {
   host::Json outcomes = host::Json::object();
   for (int i = 0; i < kMatchOutcomes; ++i) {
-    outcomes[to_string(static_cast<MatchOutcome>(i))] = drive.counters.outcomes[i];
+    outcomes[to_string(static_cast<MatchOutcome>(i))] = counters.outcomes[i];
   }
-  json["scans"] = drive.trajectory.size();
-  json["matched"] = drive.counters.matched;
-  json["outcomes"] = outcomes;
+  return outcomes;
 }
 
 host::Json quantiles(const std::vector<double>& values) {

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What a drive gives, however it was driven: replayed, through wires, or simulated.
+/// What a replayed drive gives, directly or through wires.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <string>
@@ -17,13 +16,6 @@
 
 namespace picolo::tool {
 
-/// How long a task of the cycle took, in processor time of this machine.
-struct TaskTiming {
-  std::string name;
-  double median_us = 0.0;
-  double worst_us = 0.0;
-};
-
 struct DriveResult {
   host::Trajectory trajectory;  ///< map_T_base, one a scan
   host::Trajectory odometry;    ///< odom_T_base of the same scans
@@ -34,12 +26,11 @@ struct DriveResult {
   std::vector<double> match_us;  ///< one a matched scan; empty when not measured
   std::vector<double> total_us;  ///< undistortion, match and map update; one a scan
   std::vector<double> iterations;
-  std::vector<TaskTiming> tasks;
   host::OccupancyImage map;
 };
 
-/// "scans", "matched", "outcomes".
-void add_counts(const DriveResult& drive, host::Json& json);
+/// How often each outcome of a match came, by name.
+[[nodiscard]] host::Json outcomes_json(const LocaliserCounters& counters);
 /// {"p50", "p99"}.
 [[nodiscard]] host::Json quantiles(const std::vector<double>& values);
 

@@ -59,6 +59,35 @@ void read_noise(ConfigFile& file, const std::string& section, PredictionNoise& n
   file.read(section, "weight", noise.weight);
 }
 
+void read_search(ConfigFile& file, const std::string& section, SearchConfig& search) {
+  file.read(section, "enabled", search.enabled);
+  file.read(section, "after_m", search.after_m);
+  file.read(section, "after_rad", search.after_rad);
+  file.read(section, "below_inlier_share", search.below_inlier_share);
+  file.read(section, "min_half_m", search.min_half_m);
+  file.read(section, "max_half_m", search.max_half_m);
+  file.read(section, "min_half_rad", search.min_half_rad);
+  file.read(section, "max_half_rad", search.max_half_rad);
+  file.read(section, "wide_half_m", search.wide_half_m);
+  file.read(section, "wide_half_rad", search.wide_half_rad);
+  file.read(section, "wide_gain", search.wide_gain);
+  CorrelativeConfig& correlative = search.correlative;
+  file.read(section, "translation_step_m", correlative.translation_step_m);
+  file.read(section, "rotation_step_rad", correlative.rotation_step_rad);
+  file.read(section, "max_points", correlative.max_points);
+  file.read(section, "max_candidates", correlative.max_candidates);
+  file.read(section, "sigma_m", correlative.score.sigma_m);
+  file.read(section, "prior_weight", correlative.score.prior_weight);
+}
+
+void read_heading(ConfigFile& file, const std::string& section, HeadingCorrectionConfig& heading) {
+  file.read(section, "scale_sigma", heading.scale_sigma);
+  file.read(section, "per_m_sigma_rad", heading.per_m_sigma_rad);
+  file.read(section, "scale_walk", heading.scale_walk);
+  file.read(section, "per_m_walk_rad", heading.per_m_walk_rad);
+  file.read(section, "gate_sigma", heading.gate_sigma);
+}
+
 }  // namespace
 
 void read(ConfigFile& file, const std::string& section, LocaliserConfig& config) {
@@ -66,6 +95,9 @@ void read(ConfigFile& file, const std::string& section, LocaliserConfig& config)
   read_matcher(file, section + ".coarse", config.coarse);
   read_matcher(file, section + ".fine", config.fine);
   read_noise(file, section + ".noise", config.noise);
+  read_search(file, section + ".search", config.search);
+  read_heading(file, section + ".heading", config.heading);
+  file.read(section, "learn_heading", config.learn_heading);
   file.read(section, "use_coarse", config.use_coarse);
   file.read(section, "min_inlier_share", config.min_inlier_share);
   file.read(section, "insert_every_m", config.insert_every_m);

@@ -14,9 +14,9 @@
 namespace picolo::host {
 namespace {
 
-/// To the nanometre: -8.65, not -8.650000000000002.
+/// To the micrometre: 0.05, not 0.05000000074505806 as a float has it.
 std::string metres(double value) {
-  return plain_decimal(std::round(value * 1e9) / 1e9);
+  return plain_decimal(std::round(value * 1e6) / 1e6);
 }
 
 char grey(MapCell cell) {

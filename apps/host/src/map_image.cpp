@@ -4,6 +4,11 @@
 
 namespace picolo::host {
 
+MapCell cell_of(std::int8_t log_odds, const MapConfig& config) {
+  if (log_odds >= config.occupied_from) { return MapCell::occupied; }
+  return log_odds < 0 ? MapCell::free : MapCell::unknown;
+}
+
 OccupancyImage image_of(const RollingMapCore& map) {
   const GridWindow& window = map.window();
   const auto cell_m = static_cast<double>(window.cell_m);
@@ -15,10 +20,7 @@ OccupancyImage image_of(const RollingMapCore& map) {
   image.origin_y_m = cell_m * window.origin_y_cells;
   image.cells.reserve(map.occupancy().size());
   for (const std::int8_t odds : map.occupancy()) {
-    const bool occupied = odds >= map.config().occupied_from;
-    image.cells.push_back(occupied   ? MapCell::occupied
-                          : odds < 0 ? MapCell::free
-                                     : MapCell::unknown);
+    image.cells.push_back(cell_of(odds, map.config()));
   }
   return image;
 }

@@ -3,23 +3,14 @@
 #include "picolo/host/map_mosaic.hpp"
 
 #include <algorithm>
-#include <array>
-#include <charconv>
 #include <cmath>
+
+#include "picolo/host/map_image.hpp"
 
 namespace picolo::host {
 namespace {
 
 constexpr std::size_t kMargin = 10;  // cells around the drawing
-
-/// 0.08F as 0.08: what people wrote and want to read.
-double as_written(float value) {
-  std::array<char, 64> digits{};
-  const char* const end = std::to_chars(digits.data(), digits.data() + digits.size(), value).ptr;
-  double written = static_cast<double>(value);
-  std::from_chars(digits.data(), end, written);
-  return written;
-}
 
 std::int32_t floor_div(std::int32_t value, std::int32_t divisor) {
   return value >= 0 ? value / divisor : -((-value + divisor - 1) / divisor);
@@ -47,7 +38,7 @@ void MapMosaic::watch(const RollingMapCore& map, const Pose2d& map_T_base) {
 
 void MapMosaic::absorb(const RollingMapCore& map) {
   const GridWindow& window = map.window();
-  cell_m_ = as_written(window.cell_m);
+  cell_m_ = static_cast<double>(window.cell_m);
   absorbed_ = true;
   const auto occupancy = map.occupancy();
   for (int row = 0; row < window.height; ++row) {
@@ -64,9 +55,7 @@ void MapMosaic::absorb(const RollingMapCore& map) {
         tile = &tiles_[{tile_x, tile_y}];
       }
       (*tile)[static_cast<std::size_t>((y - tile_y * kTile) * kTile + x - tile_x * kTile)] =
-          value >= map.config().occupied_from ? MapCell::occupied
-          : value < 0                         ? MapCell::free
-                                              : MapCell::unknown;
+          cell_of(value, map.config());
     }
   }
 }

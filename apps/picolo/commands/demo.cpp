@@ -8,6 +8,7 @@
 
 #include "commands.hpp"
 #include "commands/demo_drive.hpp"
+#include "drive_result.hpp"
 #include "picolo/host/ape.hpp"
 #include "picolo/host/config_file.hpp"
 #include "picolo/host/files.hpp"
@@ -56,14 +57,6 @@ void draw(const DemoResult& result, const DemoSettings& settings, const host::Ap
   picture.lines.push_back(
       trajectory_line(result.trajectory, host::palette::kPicolo, 2.0, "picolo"));
   write_picture(picture, folder, "picture");
-}
-
-host::Json outcomes_json(const LocaliserCounters& counters) {
-  host::Json outcomes = host::Json::object();
-  for (int i = 0; i < kMatchOutcomes; ++i) {
-    outcomes[to_string(static_cast<MatchOutcome>(i))] = counters.outcomes[i];
-  }
-  return outcomes;
 }
 
 host::Json tasks_json(const DemoResult& result) {

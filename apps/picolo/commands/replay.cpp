@@ -55,7 +55,11 @@ void report(const DriveResult& drive, const DriveErrors& errors, const Options& 
   const bool judged = !options.reference.empty();
   if (options.common.json) {
     host::Json json;
-    add_counts(drive, json);
+    json["scans"] = drive.trajectory.size();
+    json["matched"] = drive.counters.matched;
+    json["outcomes"] = outcomes_json(drive.counters);
+    json["searched"] = drive.counters.searched;
+    json["searched_wide"] = drive.counters.searched_wide;
     json["match_us"] = quantiles(drive.match_us);
     json["total_us"] = quantiles(drive.total_us);
     json["iterations"] = quantiles(drive.iterations);
@@ -157,7 +161,7 @@ void add_replay(CLI::App& app, Action& action) {
       "Records: FLASER, ROBOTLASER1 (scans with odometry), or SWEEP with ODOM; other lines are\n"
       "skipped. A log whose stamps do not increase runs on a clock of 0.1 s a scan.\n"
       "Settings in --config FILE: [replay] profile min_range_m max_range_m; [localiser] and its\n"
-      "sub-sections map, coarse, fine, noise: the fields of LocaliserConfig by name.");
+      "sub-sections map, coarse, fine, noise, search, heading: LocaliserConfig's fields by name.");
   command->callback([&action, options] { action = [options] { return replay(*options); }; });
 }
 

@@ -28,7 +28,7 @@ TEST(Tool, HelpAndVersionAreDone) {
 
 TEST(Tool, EveryCommandTeachesByExamples) {
   const TemporaryFolder folder;
-  for (const char* command : {"undistort", "replay"}) {
+  for (const char* command : {"demo", "replay", "undistort"}) {
     const test::ToolRun help = run_tool(folder, {command, "--help"});
     EXPECT_EQ(help.exit_code, 0);
     EXPECT_THAT(help.out, HasSubstr("Example"));

@@ -11,8 +11,8 @@
 
 namespace picolo::host {
 
-/// [SECTION] and its sub-sections map, coarse, fine, noise. Throws UserError (usage) when a value
-/// has the wrong type, or the result is not valid().
+/// [SECTION] and its sub-sections map, coarse, fine, noise, search, heading. Throws UserError
+/// (usage) when a value has the wrong type, or the result is not valid().
 void read(ConfigFile& file, const std::string& section, LocaliserConfig& config);
 
 }  // namespace picolo::host

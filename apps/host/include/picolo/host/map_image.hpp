@@ -4,12 +4,17 @@
 /// The library's map as a picture of free, occupied and unknown.
 #pragma once
 
+#include <cstdint>
+
 #include "picolo/host/map_file.hpp"
 #include "picolo/map/rolling_map.hpp"
 
 namespace picolo::host {
 
-/// The whole window, in the map frame: occupied from the map's own threshold on, free below 0.
+/// Occupied from the map's own threshold on, free below 0.
+[[nodiscard]] MapCell cell_of(std::int8_t log_odds, const MapConfig& config);
+
+/// The whole window, in the map frame.
 [[nodiscard]] OccupancyImage image_of(const RollingMapCore& map);
 
 }  // namespace picolo::host

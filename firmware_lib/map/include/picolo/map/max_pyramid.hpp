@@ -41,7 +41,7 @@ class MaxPyramidCore {
   /// Starts over. Precondition: the field has the pyramid's width and height and lives until the
   /// last step.
   void begin(const DistanceFieldView& field);
-  /// Computes up to `max_rows` more rows; true when the pyramid is complete. Cost: about 80
+  /// Computes up to `max_rows` more rows; true when the pyramid is complete. Cost: about 350
   /// instructions a square of level 0, 10 of the others.
   bool step(int max_rows);
   [[nodiscard]] bool complete() const { return complete_; }

@@ -114,7 +114,7 @@ class PoseSearch {
                const PointsView& points, const SearchWindow& window, const PosePrior& prior = {});
 
   /// Evaluates about `max_nodes` more bounds, at most one row of squares more; true when over.
-  /// Cost: about 12 instructions a point and node.
+  /// Cost: about 25 instructions a point and node.
   bool step(std::uint32_t max_nodes);
   [[nodiscard]] bool done() const { return phase_ == Phase::done; }
   [[nodiscard]] PoseSearchReport report() const;

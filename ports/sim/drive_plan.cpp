@@ -14,6 +14,7 @@ namespace {
 
 constexpr double kStepS = 1e-3;
 constexpr double kTargetStepM = 0.005;
+constexpr int kMaxTargetSteps = 200;
 constexpr double kSteeringGainPerS = 2.0;
 constexpr double kStandingTurnRad = 0.8;  ///< beyond this heading error it turns on the spot
 constexpr double kArrivedM = 0.02;
@@ -83,9 +84,9 @@ DriveCommand DrivePlan::recite(Duration elapsed) {
   return {};
 }
 
-/// Bounded: the target never runs more than the look-ahead distance per call.
+/// Bounded; what is left is run in the next call.
 void DrivePlan::advance_target(const Point2d& position) {
-  for (double run_m = 0.0; run_m < limits_.look_ahead_m; run_m += kTargetStepM) {
+  for (int step = 0; step < kMaxTargetSteps; ++step) {
     if (distance(position, target_) >= limits_.look_ahead_m) { return; }
     if (!closed_ && leg_ + 1 == route_.size()) { return; }
     const Point2d from = route_[leg_];

@@ -38,7 +38,7 @@ inline Pose3f registered(const Cloud& target_edges, const Cloud& target_surfaces
   using Map = VoxelMap<60000, 20, 65536>;
   Pose3f pose;
   const auto edges = features_of(source_edges, 0.2F);
-  const auto surfaces = features_of(source_surfaces, 0.5F);
+  const auto surfaces = features_of(source_surfaces, 0.3F);
   std::vector<PlaneResidual<float>> planes(surfaces.size());
   std::vector<LineResidual<float>> lines(edges.size());
   for (const Level level : {Level{3.0F, 0.4F, 0.3F}, {1.5F, 0.2F, 0.15F}, {1.0F, 0.1F, 0.08F}}) {
@@ -49,6 +49,7 @@ inline Pose3f registered(const Cloud& target_edges, const Cloud& target_surfaces
     for (const auto& p : target_surfaces) { (void)surface_map->core().insert(p); }
     MapMatcherConfig matcher_config{.rounds = 20,
                                     .search_m = level.voxel_m,
+                                    .neighbours = 8,
                                     .plane_thickness_m = level.thickness_m,
                                     .line_slenderness = 10.0F};
     matcher_config.solver.plane_kernel.width = level.voxel_m / 2;

@@ -13,7 +13,7 @@ namespace picolo::bench {
 namespace {
 
 PoseSolverConfig four_iterations(LineForm form) {
-  return {.line_form = form, .max_iterations = 4, .converged_m = 1e-300, .converged_rad = 1e-300};
+  return {.line_form = form, .max_iterations = 4, .converged_m = 1e-30F, .converged_rad = 1e-30F};
 }
 
 void picolo_double(benchmark::State& state, LineForm form) {
@@ -38,8 +38,8 @@ void lm_to_convergence(benchmark::State& state, LineForm form) {
   PoseSolver<double> solver{{.method = SolveMethod::levenberg_marquardt,
                              .line_form = form,
                              .max_iterations = 500,
-                             .converged_m = 1e-9,
-                             .converged_rad = 1e-9}};
+                             .converged_m = 1e-9F,
+                             .converged_rad = 1e-9F}};
   int iterations = 0;
   for (auto _ : state) { iterations = solver.solve({{}, problem.lines, {}}).iterations; }
   state.counters["iterations"] = iterations;

@@ -78,8 +78,8 @@ void MapMatcher::finish_round() {
   const Vector3f shift = inline3::sub(solved.pose.translation_m, guess_.translation_m);
   const float turn_rad =
       rotation_angle_rad(compose(inverse(guess_.rotation), solved.pose.rotation));
-  const auto settled_m = static_cast<float>(config_.solver.converged_m);
-  const auto settled_rad = static_cast<float>(config_.solver.converged_rad);
+  const float settled_m = config_.solver.converged_m;
+  const float settled_rad = config_.solver.converged_rad;
   const bool settled = inline3::square(shift) < settled_m * settled_m && turn_rad < settled_rad;
   report_.solve = solved;
   report_.matched_edges = static_cast<std::uint32_t>(line_count_);

@@ -157,7 +157,7 @@ void ceres_qr(benchmark::State& state, LineForm form) {
   for (auto _ : state) { benchmark::DoNotOptimize(timed.solve(4)); }
   const Pose3d theirs = CeresProblem{problem, LineForm::two_directions}.solve(50);
   const Pose3d ours =
-      PoseSolver<double>{{.max_iterations = 50, .converged_m = 1e-14, .converged_rad = 1e-14}}
+      PoseSolver<double>{{.max_iterations = 50, .converged_m = 1e-14F, .converged_rad = 1e-14F}}
           .solve({problem.planes, problem.lines, {}})
           .pose;
   state.counters["apart_m"] = norm(difference(theirs.translation_m, ours.translation_m));

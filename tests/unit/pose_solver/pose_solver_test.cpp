@@ -14,7 +14,7 @@ namespace picolo {
 namespace {
 
 constexpr PoseSolverConfig kExact{
-    .max_iterations = 50, .converged_m = 1e-12, .converged_rad = 1e-12};
+    .max_iterations = 50, .converged_m = 1e-12F, .converged_rad = 1e-12F};
 
 Pose3d start_near(const Pose3d& truth, double angle_rad, double shift_m) {
   return perturbed(truth, Tangent3<double>{{angle_rad, -angle_rad, angle_rad / 2},
@@ -160,8 +160,8 @@ TEST(PoseSolver, GivenTheDistanceFormThenTheSameMinimumTakesMoreStepsAndDamping)
   const auto lines = test::scene(truth, 0, 300, 0.05).lines;
   PoseSolverConfig config{.method = SolveMethod::levenberg_marquardt,
                           .max_iterations = 300,
-                          .converged_m = 1e-9,
-                          .converged_rad = 1e-9};
+                          .converged_m = 1e-9F,
+                          .converged_rad = 1e-9F};
   const auto two = PoseSolver<double>{config}.solve({{}, lines, {}});
   config.line_form = LineForm::distance;
   const auto one = PoseSolver<double>{config}.solve({{}, lines, {}});
@@ -180,8 +180,8 @@ TEST(PoseSolver, GivenAWildStartThenLevenbergMarquardtNeverRaisesTheCost) {
   const auto scene = test::scene(truth, 80, 20, 0.02);
   PoseSolver<double> solver{{.method = SolveMethod::levenberg_marquardt,
                              .max_iterations = 100,
-                             .converged_m = 1e-11,
-                             .converged_rad = 1e-11,
+                             .converged_m = 1e-11F,
+                             .converged_rad = 1e-11F,
                              .max_step_rad = 3.0F}};
   const Pose3d start{exp_so3(Vector3d{1.0, -0.8, 0.9}), {5, -5, 5}};
   const auto report = solver.solve({scene.planes, scene.lines, start});

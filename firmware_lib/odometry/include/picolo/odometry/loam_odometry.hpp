@@ -36,8 +36,8 @@ struct LoamConfig {
                                .line_kernel = {.kind = RobustKind::geman_mcclure, .width = 0.15F},
                                .max_iterations = 5,
                                .min_residuals = 30,
-                               .converged_m = 5e-4,
-                               .converged_rad = 2e-5};
+                               .converged_m = 5e-4F,
+                               .converged_rad = 2e-5F};
   [[nodiscard]] constexpr bool valid() const {
     return features.valid() && map.valid() && map_match.valid() && scan_solver.valid() &&
            scan_period_s > 0.0F && scan_rounds >= 0 && scan_search_m > 0.0F &&

@@ -26,8 +26,8 @@ struct MapMatcherConfig {
                           .line_kernel = {.kind = RobustKind::geman_mcclure, .width = 0.15F},
                           .max_iterations = 5,
                           .min_residuals = 30,
-                          .converged_m = 5e-4,
-                          .converged_rad = 2e-5};
+                          .converged_m = 5e-4F,
+                          .converged_rad = 2e-5F};
   [[nodiscard]] constexpr bool valid() const {
     return rounds > 0 && search_m > 0.0F && neighbours >= 3 && neighbours <= 8 &&
            plane_thickness_m > 0.0F && line_slenderness > 1.0F && slice_features > 0 &&

@@ -34,18 +34,18 @@ struct PoseSolverConfig {
   RobustKernel line_kernel{};
   int max_iterations = 10;
   int min_residuals = 10;     ///< correspondences, lines and planes together
-  double converged_m = 1e-4;  ///< stop when |dt| and |theta| are both below
-  double converged_rad = 1e-5;
+  float converged_m = 1e-4F;  ///< stop when |dt| and |theta| are both below
+  float converged_rad = 1e-5F;
   float max_step_m = 1e3F;  ///< a longer step is shortened, its direction kept
   float max_step_rad = 1.0F;
   /// A direction is left alone when its eigenvalue is below the largest one over this; rotation is
   /// made comparable to metres by the root mean square arm of the points.
   float max_condition = 1e6F;
-  double initial_damping = 1e-4;  ///< of Levenberg-Marquardt, times the largest diagonal element
+  float initial_damping = 1e-4F;  ///< of Levenberg-Marquardt, times the largest diagonal element
   [[nodiscard]] constexpr bool valid() const {
     return plane_kernel.valid() && line_kernel.valid() && max_iterations > 0 && min_residuals > 0 &&
-           converged_m > 0.0 && converged_rad > 0.0 && max_step_m > 0.0F && max_step_rad > 0.0F &&
-           max_condition > 1.0F && initial_damping > 0.0;
+           converged_m > 0.0F && converged_rad > 0.0F && max_step_m > 0.0F && max_step_rad > 0.0F &&
+           max_condition > 1.0F && initial_damping > 0.0F;
   }
 };
 

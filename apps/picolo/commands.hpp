@@ -35,5 +35,6 @@ void add_replay(CLI::App& app, Action& action);
 void add_undistort(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_odometry3d(CLI::App& app, Action& action);
+void add_calibrate(CLI::App& app, Action& action);
 
 }  // namespace picolo::tool

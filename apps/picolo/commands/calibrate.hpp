@@ -1,0 +1,39 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The calibrate commands, one file each; calibrate.cpp adds them to the command line.
+#pragma once
+
+#include <string>
+
+#include <cstdint>
+
+#include "commands.hpp"
+#include "picolo/calibration/parameter.hpp"
+
+namespace picolo::tool {
+
+struct CalibrateOptions {
+  CommonOptions common;
+  std::string file;
+  std::string odometry;
+  std::string scan_match;
+  std::uint64_t limit = 0;
+  int outlier_rounds = 4;
+  double quantile = 0.99;
+  double ticks_per_turn = 0.0;
+  double max_offset_s = 0.5;
+  bool single_pass = false;
+};
+
+ExitCode calibrate_wheels_command(const CalibrateOptions& options);
+ExitCode calibrate_joint_command(const CalibrateOptions& options);
+ExitCode calibrate_linear_command(const CalibrateOptions& options);
+ExitCode calibrate_extrinsic_command(const CalibrateOptions& options);
+ExitCode calibrate_time_offset_command(const CalibrateOptions& options);
+
+/// refused when there is a refusal, else what the input's end asks for.
+ExitCode end_of_calibration(const Refusal& refusal, const std::string& name,
+                            const std::string& damage);
+
+}  // namespace picolo::tool

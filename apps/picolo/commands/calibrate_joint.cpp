@@ -1,0 +1,93 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <vector>
+
+#include "commands/calibrate.hpp"
+#include "commands/calibrate_files.hpp"
+#include "commands/calibrate_report.hpp"
+#include "picolo/calibration/joint_batch.hpp"
+#include "picolo/calibration/joint_streaming.hpp"
+#include "picolo/calibration/wheel_model.hpp"
+#include "picolo/host/error.hpp"
+
+namespace picolo::tool {
+namespace {
+
+/// Rows T phi_l phi_r sm_x sm_y sm_theta, or a log with counters and scans that are matched here.
+std::vector<MotionSample> samples_of(const DriveFile& drive) {
+  std::vector<MotionSample> samples;
+  for (const auto& row : drive.pairs) {
+    samples.push_back({row[0], row[1], row[2], {row[3], row[4], row[5]}});
+  }
+  if (!samples.empty() || drive.wheels.size() < 2) { return samples; }
+  for (const ScanStep& step : match_scans(drive, {})) {
+    const double begin_s = drive.scans[step.scan - 1].stamp_s;
+    const double end_s = drive.scans[step.scan].stamp_s;
+    if (!step.converged || !(end_s > begin_s)) { continue; }
+    const WheelAngles a = wheels_at(drive.wheels, begin_s);
+    const WheelAngles b = wheels_at(drive.wheels, end_s);
+    const double duration = end_s - begin_s;
+    samples.push_back({duration, (b.left_rad - a.left_rad) / duration,
+                       (b.right_rad - a.right_rad) / duration, step.lidar_motion});
+  }
+  return samples;
+}
+
+void draw(const std::vector<MotionSample>& samples, const JointReport& report,
+          const std::string& folder) {
+  const double mean = 0.5 * (report.drive.radius_left_m + report.drive.radius_right_m);
+  DriveParameters before = report.drive;
+  before.radius_left_m = before.radius_right_m = mean;
+  Residuals residuals;
+  host::Trajectory odometry, lidar, corrected;
+  Pose2d a, b, c;
+  double stamp_s = 0.0;
+  const Pose2d& mount = report.drive.base_T_lidar;
+  for (const MotionSample& sample : samples) {
+    const Pose2d was = motion_residual(before, sample);
+    const Pose2d is = motion_residual(report.drive, sample);
+    residuals.before_m.push_back({was.x_m, was.y_m});
+    residuals.after_m.push_back({is.x_m, is.y_m});
+    a = a * base_motion(before, sample);
+    b = b * (mount * sample.lidar_motion * inverse(mount));
+    c = c * base_motion(report.drive, sample);
+    stamp_s += sample.duration_s;
+    odometry.push_back({stamp_s, a});
+    lidar.push_back({stamp_s, b});
+    corrected.push_back({stamp_s, c});
+  }
+  draw_calibration(folder, "Wheels and lidar together", residuals, odometry, lidar, corrected);
+}
+
+}  // namespace
+
+ExitCode calibrate_joint_command(const CalibrateOptions& options) {
+  host::Diagnostics diagnostics;
+  const DriveFile drive = read_drive(options.file, options.ticks_per_turn, diagnostics);
+  const std::vector<MotionSample> samples = samples_of(drive);
+  if (samples.empty()) {
+    throw host::UserError{
+        ExitCode::input, drive.name, "holds no pair of scans with wheel counters around them",
+        "give rows 'T phi_l phi_r sm_x sm_y sm_theta', or a log with TICKS and scans"};
+  }
+  JointReport report;
+  if (options.single_pass) {
+    JointStreaming streaming;
+    for (const MotionSample& sample : samples) { static_cast<void>(streaming.add(sample)); }
+    static_cast<void>(streaming.solve(report));
+  } else {
+    SpanSource<MotionSample> source{samples};
+    const JointBatchConfig config{.outlier_rounds = options.outlier_rounds,
+                                  .quantile = options.quantile};
+    if (calibrate_joint(source, config, report) == Status::invalid_argument) {
+      throw host::UserError{ExitCode::usage, "command line",
+                            "outlier rounds or quantile are out of their domain",
+                            "0 to 8 rounds, quantile above 0.5 and at most 1"};
+    }
+  }
+  draw(samples, report, options.common.out);
+  print_calibration(joint_json(report), options.common.json, options.common.out);
+  return end_of_calibration(report.refusal, drive.name, drive.damage);
+}
+
+}  // namespace picolo::tool

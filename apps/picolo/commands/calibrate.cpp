@@ -66,8 +66,8 @@ void add_calibrate(CLI::App& app, Action& action) {
       *group, "joint", "Wheel radii, track width and lidar pose together (Censi et al. 2013)", o,
       action, calibrate_joint_command, options);
   take_file(*joint, o, "Rows 'T phi_l phi_r sm_x sm_y sm_theta', or a log with TICKS and scans");
-  joint->add_option("--outlier-rounds", o.outlier_rounds, "Rounds of outlier rejection")
-      ->capture_default_str();
+  joint->add_option("--outlier-rounds", o.outlier_rounds, "Rounds of outlier rejection (4)")
+      ->check(CLI::NonNegativeNumber);
   joint->add_option("--quantile", o.quantile, "Share of errors that a round keeps")
       ->capture_default_str();
   joint->add_flag("--single-pass", o.single_pass, "As on the target: one pass, constant memory");
@@ -76,6 +76,11 @@ void add_calibrate(CLI::App& app, Action& action) {
                                 action, calibrate_linear_command, options);
   take_file(*linear, o,
             "Rows 'odom x y theta, scan x y theta', or a log whose scans carry odometry");
+
+  linear
+      ->add_option("--outlier-rounds", o.outlier_rounds,
+                   "Rounds of outlier rejection (rows 0, logs 2)")
+      ->check(CLI::NonNegativeNumber);
 
   CLI::App* extrinsic =
       subcommand(*group, "extrinsic", "Lidar yaw, then x and y, against calibrated odometry", o,

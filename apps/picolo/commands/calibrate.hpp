@@ -19,7 +19,7 @@ struct CalibrateOptions {
   std::string odometry;
   std::string scan_match;
   std::uint64_t limit = 0;
-  int outlier_rounds = 4;
+  int outlier_rounds = -1;  ///< -1: what suits the command
   double quantile = 0.99;
   double ticks_per_turn = 0.0;
   double max_offset_s = 0.5;

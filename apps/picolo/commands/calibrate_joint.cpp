@@ -77,8 +77,9 @@ ExitCode calibrate_joint_command(const CalibrateOptions& options) {
     static_cast<void>(streaming.solve(report));
   } else {
     SpanSource<MotionSample> source{samples};
-    const JointBatchConfig config{.outlier_rounds = options.outlier_rounds,
-                                  .quantile = options.quantile};
+    const JointBatchConfig config{
+        .outlier_rounds = options.outlier_rounds < 0 ? 4 : options.outlier_rounds,
+        .quantile = options.quantile};
     if (calibrate_joint(source, config, report) == Status::invalid_argument) {
       throw host::UserError{ExitCode::usage, "command line",
                             "outlier rounds or quantile are out of their domain",

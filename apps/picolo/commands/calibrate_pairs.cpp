@@ -8,7 +8,7 @@
 #include "commands/calibrate_files.hpp"
 #include "commands/calibrate_report.hpp"
 #include "picolo/calibration/extrinsic_calibration.hpp"
-#include "picolo/calibration/linear_calibration.hpp"
+#include "picolo/calibration/linear_batch.hpp"
 #include "picolo/host/error.hpp"
 
 namespace picolo::tool {
@@ -65,17 +65,18 @@ ExitCode calibrate_linear_command(const CalibrateOptions& options) {
   host::Diagnostics diagnostics;
   const DriveFile drive = read_drive(options.file, options.ticks_per_turn, diagnostics);
   const std::vector<MotionPair> pairs = pairs_of(drive);
-  LinearCalibration calibration;
-  for (const MotionPair& pair : pairs) { static_cast<void>(calibration.add(pair)); }
+  // Rows are taken as they are; matches of a log are sometimes wrong.
+  const int rounds =
+      options.outlier_rounds >= 0 ? options.outlier_rounds : (drive.pairs.empty() ? 2 : 0);
+  SpanSource<MotionPair> source{pairs};
   LinearReport report;
-  static_cast<void>(calibration.solve(report));
-  const Matrix3d& x = report.correction;
-  draw(pairs, "Linear correction", options.common.out, [&](const Pose2d& o) {
-    return Pose2d{x(0, 0) * o.x_m + x(0, 1) * o.y_m + x(0, 2) * o.theta_rad,
-                  x(1, 0) * o.x_m + x(1, 1) * o.y_m + x(1, 2) * o.theta_rad,
-                  x(2, 0) * o.x_m + x(2, 1) * o.y_m + x(2, 2) * o.theta_rad};
-  });
-  print_calibration({{"X", matrix_json(x.elements)},
+  if (calibrate_linear(source, {.outlier_rounds = rounds}, report) == Status::invalid_argument) {
+    throw host::UserError{ExitCode::usage, "command line", "outlier rounds are out of their domain",
+                          "0 to 8 rounds"};
+  }
+  draw(pairs, "Linear correction", options.common.out,
+       [&](const Pose2d& o) { return corrected_by(report.correction, o); });
+  print_calibration({{"X", matrix_json(report.correction.elements)},
                      {"std", matrix_json(report.deviation.elements)},
                      {"covariance", matrix_json(report.covariance)},
                      {"condition", report.condition},

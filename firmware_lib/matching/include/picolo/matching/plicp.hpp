@@ -25,8 +25,8 @@ struct PlIcpConfig {
   float max_segment_share = 0.1F;  ///< ... unless closer than this share of their range
   float line_radius_m = 0.04F;     ///< a line is fitted through neighbours within this radius...
   int line_neighbours = 3;         ///< ... at most so many on each side
-  float max_flatness = 0.15F;      ///< smaller over larger spread; above: a corner, no line
-  float keep_share = 0.85F;        ///< of the pairs, those with the smallest distance to their line
+  float max_flatness = 0.5F;       ///< smaller over larger spread; above: a corner, no line
+  float keep_share = 0.95F;        ///< of the pairs, those with the smallest distance to their line
   int max_candidates = 60;         ///< reference points looked at on each side of a bearing
   float converged_m = 1e-4F;       ///< stop when the step is below both
   float converged_rad = 1e-4F;

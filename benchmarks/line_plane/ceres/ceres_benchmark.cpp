@@ -11,7 +11,7 @@
 #include <algorithm>
 #include <array>
 
-#include "../problem.hpp"
+#include "problem.hpp"
 
 namespace picolo::bench {
 namespace {

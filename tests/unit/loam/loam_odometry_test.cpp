@@ -113,6 +113,28 @@ TEST(LoamOdometry, GivenSmallSlicesThenTheResultIsTheSameBits) {
   EXPECT_GT(most[1], most[0]);
 }
 
+TEST(LoamOdometry, GivenAShortSequenceThenItsHashIsTheSameOnEveryPlatform) {
+  const test::Room room;
+  auto odometry = std::make_unique<Odometry>(LoamConfig{});
+  Hash hash;
+  for (int i = 0; i < 6; ++i) {
+    const auto seed = 300 + static_cast<std::uint64_t>(i);
+    test::run_scan(odometry->core(),
+                   test::scan_of(room, test::on_curve(i), test::on_curve(i + 1), 0.01, seed, 600));
+    const LoamReport& report = odometry->core().report();
+    const Pose3d& pose = report.map_T_lidar;
+    for (const double value :
+         {pose.translation_m.x, pose.translation_m.y, pose.translation_m.z, pose.rotation.w,
+          pose.rotation.x, pose.rotation.y, pose.rotation.z}) {
+      hash.add(value);
+    }
+    for (const float value : report.covariance) { hash.add(value); }
+    hash.add(report.matched_surfaces);
+  }
+  EXPECT_FALSE(hash.poisoned());
+  EXPECT_EQ(hash.value(), 2199373629779511245ULL);
+}
+
 TEST(LoamOdometry, GivenAnIncompleteScanThenItIsSurvived) {
   const test::Room room;
   auto odometry = std::make_unique<Odometry>(compensated());

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A room with pillars and a 16-ring lidar in it, cast ray by ray.
+/// A room with pillars and a 16-ring lidar in it, cast ray by ray; only with functions that give
+/// the same bits everywhere.
 #pragma once
 
 #include <cmath>
@@ -9,6 +10,7 @@
 #include <numbers>
 #include <vector>
 
+#include "picolo/core/math.hpp"
 #include "picolo/core/random.hpp"
 #include "picolo/geometry/se3.hpp"
 #include "picolo/odometry/loam_odometry.hpp"
@@ -70,8 +72,9 @@ inline Scan scan_of(const Room& room, const Pose3d& begin, const Pose3d& end, do
     const double azimuth = 2 * std::numbers::pi * share;
     for (std::size_t ring = 0; ring < kRings; ++ring) {
       const double elevation = (15.0 - 2.0 * static_cast<double>(ring)) * std::numbers::pi / 180;
-      const Vector3d ray{std::cos(elevation) * std::cos(azimuth),
-                         std::cos(elevation) * std::sin(azimuth), std::sin(elevation)};
+      const SinCos<double> up = sin_cos(elevation);
+      const SinCos<double> around = sin_cos(azimuth);
+      const Vector3d ray{up.cosine * around.cosine, up.cosine * around.sine, up.sine};
       const double range = room.range_m(pose.translation_m, rotate(pose.rotation, ray)) +
                            noise_m * random.gaussian();
       scan[ring].push_back({to_f32(scaled(ray, range)), static_cast<float>(share * kPeriod)});
@@ -82,8 +85,9 @@ inline Scan scan_of(const Room& room, const Pose3d& begin, const Pose3d& end, do
 
 inline Pose3d on_curve(int i) {
   const double s = 0.25 * i;
-  return {exp_so3(Vector3d{0.01 * std::sin(s), 0.01 * std::cos(s), 0.04 * i}),
-          {s - 3, 1.5 * std::sin(0.3 * s), 0.05 * std::sin(s)}};
+  const SinCos<double> wave = sin_cos(s);
+  return {exp_so3(Vector3d{0.01 * wave.sine, 0.01 * wave.cosine, 0.04 * i}),
+          {s - 3, 1.5 * sin_cos(0.3 * s).sine, 0.05 * wave.sine}};
 }
 
 inline int run_scan(LoamCore& core, const Scan& scan) {

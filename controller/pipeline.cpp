@@ -19,7 +19,11 @@ HealthReason why_rejected(MatchOutcome outcome) {
 Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
                    LocaliserCore& localiser)
     : undistort_(config.undistort),
+      max_bridge_(config.max_bridge),
       localiser_(localiser),
+      gyro_sign_(config.dead_reckoning.gyro_sign),
+      gate_(config.plausibility, config.drive),
+      turn_check_(config.plausibility),
       drive_(config.drive),
       dead_reckoning_(config.dead_reckoning),
       poses_(pose_storage_),
@@ -28,24 +32,61 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
   localiser_.set_pose(config.start_map_T_base, Pose2d{});
 }
 
-void Pipeline::add(const WheelTicks& ticks) {
+void Pipeline::add(const ImuSample& sample) {
+  dead_reckoning_.add(sample);
+  if (sample.saturated) { return; }
+  turn_check_.add_gyro(sample.stamp,
+                       gyro_sign_ * sample.rate_radps[2] - dead_reckoning_.gyro_bias_radps());
+}
+
+void Pipeline::add(const RangeReading& reading) {
+  const std::uint32_t completed = sweeps_.counters().completed;
+  sweeps_.add(reading);
+  if (sweeps_.counters().completed != completed) { last_sweep_end_ = last_reading_; }
+  last_reading_ = reading.stamp;
+}
+
+void Pipeline::add(WheelTicks ticks) {
+  if (!gate_.pass(ticks)) {
+    ++counters_.ticks_left_out;
+    return;
+  }
   const Result<WheelIncrement> increment = drive_.update(ticks);
   if (increment.status() == Status::out_of_range) { ++counters_.ticks_refused; }
-  if (increment.status() == Status::not_ready) {
-    // The first sample, or counters that started anew: nothing is known of the way to here, so the
-    // pose is taken to have stood.
-    (void)poses_.push({ticks.stamp, dead_reckoning_.pose().odom_T_base});
-  }
+  if (increment.status() == Status::not_ready) { bridge(ticks.stamp); }
   if (!increment) { return; }
   dead_reckoning_.add(*increment);
+  turn_check_.add(*increment);
   ++counters_.increments;
   (void)poses_.push(dead_reckoning_.pose());  // later than the last, or the increment would not be
+}
+
+void Pipeline::bridge(Timestamp to) {
+  if (poses_.size() == 0) {
+    (void)poses_.push({to, Pose2d{}});
+    return;
+  }
+  const Timestamp from = poses_.newest().stamp;
+  if (to <= from) { return; }
+  // The counters started anew: what they would have told of the gap is lost. A short one was driven
+  // as before; over a long one the place is kept, and the match has to find the rest. The turn is
+  // the gyro's where there is one.
+  WheelIncrement gap{.from = from, .to = to};
+  if (to - from <= max_bridge_) {
+    const Twist2& twist = dead_reckoning_.base_twist();
+    const double gap_s = to_seconds_f64(to - from);
+    gap.from_T_to = exp_se2(Tangent2<double>{static_cast<double>(twist.x_mps) * gap_s,
+                                             static_cast<double>(twist.y_mps) * gap_s,
+                                             static_cast<double>(twist.omega_radps) * gap_s});
+  }
+  dead_reckoning_.add(gap);
+  (void)poses_.push(dead_reckoning_.pose());
+  ++counters_.bridged;
 }
 
 void Pipeline::take_sweep() {
   if (stage_ == PipelineStage::undistorting) { ++counters_.sweeps_replaced; }
   const Sweep sweep = sweeps_.take();
-  last_sweep_end_ = sweep.last_stamp;
   ++counters_.sweeps_taken;
   stage_ = PipelineStage::undistorting;
   if (!is_ok(undistorter_.begin(undistort_, sweep))) {
@@ -77,7 +118,18 @@ bool Pipeline::match(std::size_t max_point_iterations) {
   if (stage_ != PipelineStage::matching) { return false; }
   const std::size_t points = std::max<std::size_t>(1, undistorter_.result().points.size());
   const std::size_t iterations = std::max<std::size_t>(1, max_point_iterations / points);
-  for (std::size_t i = 0; i < iterations; ++i) {
+  for (std::size_t i = 0; i < iterations && !localiser_.searching(); ++i) {
+    if (localiser_.match_step()) {
+      conclude();
+      return true;
+    }
+  }
+  return false;
+}
+
+bool Pipeline::search(std::size_t max_slices) {
+  if (stage_ != PipelineStage::matching) { return false; }
+  for (std::size_t i = 0; i < max_slices && localiser_.searching(); ++i) {
     if (localiser_.match_step()) {
       conclude();
       return true;
@@ -95,6 +147,7 @@ void Pipeline::conclude() {
   verdict_.odom_T_base = undistorter_.result().odom_T_base;
   verdict_.map_T_base = localiser_.map_T_base();
   verdict_.covariance = report.covariance;
+  verdict_.inlier_share = localiser_.counters().sweeps == 1 ? 1.0F : report.inlier_share;
   stage_ = localiser_.phase() == LocaliserPhase::mapping ? PipelineStage::mapping
                                                          : PipelineStage::waiting;
 }

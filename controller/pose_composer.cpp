@@ -25,8 +25,7 @@ float magnitude(float x) {
 PoseComposer::PoseComposer(const ControllerConfig& config)
     : growth_(config.growth),
       max_prediction_(config.max_prediction),
-      min_jump_m_(config.min_jump_event_m),
-      min_jump_rad_(config.min_jump_event_rad),
+      trust_(config.trust),
       map_T_odom_(config.start_map_T_base),
       reference_map_T_base_(config.start_map_T_base) {}
 
@@ -45,8 +44,11 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   const Pose2d corrected = verdict.map_T_base * inverse(verdict.odom_T_base);
   const Pose2d& odom_T_base = odometry.odom_T_base;
   last_jump_ = to_f32(between(map_T_odom_ * odom_T_base, corrected * odom_T_base));
-  jumped_ = hypotenuse(last_jump_.x_m, last_jump_.y_m) > min_jump_m_ ||
-            magnitude(last_jump_.theta_rad) > min_jump_rad_;
+  jumped_ = hypotenuse(last_jump_.x_m, last_jump_.y_m) > trust_.max_correction_m ||
+            magnitude(last_jump_.theta_rad) > trust_.max_correction_rad;
+  pull_ = {trust_.pull_kept * pull_.x_m + last_jump_.x_m,
+           trust_.pull_kept * pull_.y_m + last_jump_.y_m,
+           trust_.pull_kept * pull_.theta_rad + last_jump_.theta_rad};
   map_T_odom_ = corrected;
   reference_ = verdict.reference;
   reference_odom_T_base_ = verdict.odom_T_base;
@@ -92,6 +94,11 @@ PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
       Matrix3f::diagonal(drift_variance, drift_variance,
                          square(growth_.drift_heading_per_m_rad * since_start_.distance_m));
   return estimate;
+}
+
+bool PoseComposer::pulled() const {
+  return hypotenuse(pull_.x_m, pull_.y_m) > trust_.max_pull_m ||
+         magnitude(pull_.theta_rad) > trust_.max_pull_rad;
 }
 
 std::int32_t PoseComposer::jump_mm() const {

@@ -11,6 +11,8 @@
 namespace picolo::inline v0 {
 namespace {
 
+constexpr int kDoubtful = 2;  // steps that a doubtful match raises what any other lowers by one
+
 void count_up(int& streak) {
   if (streak < std::numeric_limits<int>::max()) { ++streak; }
 }
@@ -50,16 +52,28 @@ void Supervisor::line(DeviceIndex device, Status status, Timestamp now) {
         static_cast<std::int32_t>(device));
 }
 
-void Supervisor::matched(const MatchVerdict& verdict) {
-  if (verdict.accepted) {
-    count_up(accepted_streak_);
-    rejected_streak_ = 0;
-    direction_unobservable_ = verdict.direction_unobservable;
+void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) {
+  if (!verdict.accepted) {
+    count_up(rejected_streak_);
+    accepted_streak_ = 0;
+    rejection_ = verdict.rejection;
     return;
   }
-  count_up(rejected_streak_);
-  accepted_streak_ = 0;
-  rejection_ = verdict.rejection;
+  rejected_streak_ = 0;
+  pulled_ = pulled;
+  direction_unobservable_ = verdict.direction_unobservable;
+  const bool poor = verdict.inlier_share < trust_.good_inlier_share;
+  if (poor || jumped) {
+    accepted_streak_ = 0;
+  } else {
+    count_up(accepted_streak_);
+  }
+  if (jumped) {
+    doubt_ += poor ? 2 * kDoubtful : kDoubtful;
+  } else if (!poor) {  // a poor match in new surroundings says nothing
+    doubt_ -= 1;
+  }
+  doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
 }
 
 void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {
@@ -90,6 +104,8 @@ void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Sched
        .rejected_streak = rejected_streak_,
        .rejection = rejection_,
        .direction_unobservable = direction_unobservable_,
+       .sensors_disagree = turns_disagree_ || pulled_ || doubt_ > trust_.max_doubt,
+       .relocalising = searching_,
        .position_variance_m2 = estimate.match_covariance(0, 0) + estimate.match_covariance(1, 1),
        .overruns = cycle_troubles_,
        .cycle_fault = schedule.faulted(),

@@ -32,6 +32,7 @@ const char* to_string(HealthReason reason) {
     case HealthReason::relocalising: return "relocalising";
     case HealthReason::configuration: return "configuration";
     case HealthReason::overrun: return "overrun";
+    case HealthReason::sensors_disagree: return "sensors_disagree";
   }
   return "unknown";
 }
@@ -60,8 +61,13 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   }
   if (lidar_silent) { return {Level::impaired, HealthReason::lidar_silent}; }
   if (wheels_silent) { return {Level::impaired, HealthReason::wheels_silent}; }
+  if (inputs.sensors_disagree) { return {Level::impaired, HealthReason::sensors_disagree}; }
   if (inputs.rejected_streak >= config_.degraded_rejections) {
     return {Level::impaired, inputs.rejection};
+  }
+  if (inputs.match_age > config_.max_match_age) {
+    return {Level::impaired,
+            inputs.relocalising ? HealthReason::relocalising : HealthReason::match_rejected};
   }
   if (inputs.direction_unobservable) {
     return {Level::impaired, HealthReason::direction_unobservable};

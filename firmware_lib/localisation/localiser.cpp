@@ -242,8 +242,10 @@ void LocaliserCore::conclude() {
   accepted_odom_T_base_ = sweep_.odom_T_base;
   const Pose2d since = between(last_inserted_, map_T_base_);
   const double turn = since.theta_rad < 0.0 ? -since.theta_rad : since.theta_rad;
-  if (hypotenuse(since.x_m, since.y_m) < static_cast<double>(config_.insert_every_m) &&
-      turn < static_cast<double>(config_.insert_every_rad)) {
+  const double way_m = hypotenuse(since.x_m, since.y_m);
+  const bool near = way_m < static_cast<double>(config_.insert_every_m) &&
+                    turn < static_cast<double>(config_.insert_every_rad);
+  if (near || map_held_) {
     phase_ = LocaliserPhase::idle;
     return;
   }

@@ -54,8 +54,8 @@ TEST(Demo, DriveThroughTheWholeChainFollowsTheTruthWithoutTheHeap) {
     EXPECT_GE(task["worst_us"], task["median_us"]);
     EXPECT_GT(task["worst_us"], 0.0);
   }
-  EXPECT_THAT(names,
-              ElementsAre("can", "serial", "odometry", "undistort", "match", "map", "report"));
+  EXPECT_THAT(names, ElementsAre("can", "serial", "odometry", "undistort", "match", "map",
+                                 "background", "report"));
 
   const std::filesystem::path out = folder.path() / "picolo-out";
   const std::vector<std::string> stamps = stamps_of(out / "trajectory.tum");

@@ -267,6 +267,10 @@ TEST(ControllerConfigTest, GivenPartsThatAreRefusedThenTheWholeIsRefused) {
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.cycle.minor_frame = 3ms; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.work.max_can_frames = 0; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.work.max_rays = 0; }));
+  EXPECT_TRUE(refused([](ControllerConfig& c) { c.work.max_search_slices = 0; }));
+  EXPECT_TRUE(refused([](ControllerConfig& c) { c.plausibility.max_wheel_speed_mps = 0.0F; }));
+  EXPECT_TRUE(refused([](ControllerConfig& c) { c.trust.pull_kept = 1.0F; }));
+  EXPECT_TRUE(refused([](ControllerConfig& c) { c.max_bridge = -1us; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.budgets.match = 4ms; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.drive.track_m = 0.0; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.dead_reckoning.gyro_sign = 0.5F; }));
@@ -278,7 +282,7 @@ TEST(ControllerConfigTest, GivenPartsThatAreRefusedThenTheWholeIsRefused) {
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.health.initial_matches = 0; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.frames_out.health_id = c.frames_out.pose_id; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.max_prediction = -1us; }));
-  EXPECT_TRUE(refused([](ControllerConfig& c) { c.min_jump_event_m = -1.0F; }));
+  EXPECT_TRUE(refused([](ControllerConfig& c) { c.trust.max_doubt = -1; }));
 }
 
 TEST(ControllerTasks, TheTableIsInTheOrderOfTheEnumeration) {
@@ -289,6 +293,7 @@ TEST(ControllerTasks, TheTableIsInTheOrderOfTheEnumeration) {
   EXPECT_STREQ(table[static_cast<std::size_t>(ControllerTask::undistort)].name, "undistort");
   EXPECT_STREQ(table[static_cast<std::size_t>(ControllerTask::match)].name, "match");
   EXPECT_STREQ(table[static_cast<std::size_t>(ControllerTask::map)].name, "map");
+  EXPECT_STREQ(table[static_cast<std::size_t>(ControllerTask::background)].name, "background");
   EXPECT_STREQ(table[static_cast<std::size_t>(ControllerTask::report)].name, "report");
 }
 

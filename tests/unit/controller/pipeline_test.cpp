@@ -49,7 +49,7 @@ struct PipelineTest : ::testing::Test {
     pipeline.undistort(kAll);
     bool ended = false;
     for (int i = 0; i < 100 && !ended && pipeline.stage() == PipelineStage::matching; ++i) {
-      ended = pipeline.match(kAll);
+      ended = pipeline.match(kAll) || pipeline.search(kAll);
     }
     for (int i = 0; i < 100; ++i) { pipeline.map(kAll); }
     return ended;
@@ -66,9 +66,9 @@ TEST_F(PipelineTest, GivenNoTicksThenTheNewestPoseIsTheOriginNow) {
 TEST_F(PipelineTest, GivenTicksThenOdometryAdvancesFromTheFirstOnes) {
   pipeline.add(ticks_at(kStart, 100'000, 100'000));
   EXPECT_EQ(pipeline.newest_pose(kStart).stamp, kStart) << "a base, not a motion";
-  pipeline.add(ticks_at(kStart + 10ms, 104'096, 104'096));  // one turn of 0.1 m wheels
+  pipeline.add(ticks_at(kStart + 1s, 104'096, 104'096));  // one turn of 0.1 m wheels
   const StampedPose pose = pipeline.newest_pose(kStart);
-  EXPECT_EQ(pose.stamp, kStart + 10ms);
+  EXPECT_EQ(pose.stamp, kStart + 1s);
   EXPECT_NEAR(pose.odom_T_base.x_m, 0.628318530718, 1e-9);
   EXPECT_EQ(pipeline.counters().increments, 1U);
 }
@@ -81,7 +81,51 @@ TEST_F(PipelineTest, GivenTicksThatAreNotNewerThenTheyAreCountedAndIgnored) {
   EXPECT_EQ(pipeline.newest_pose(kStart).odom_T_base, Pose2d{});
 }
 
-TEST_F(PipelineTest, GivenCountersThatStartAnewThenThePoseStandsThroughTheGap) {
+TEST_F(PipelineTest, GivenCountersThatStartAnewAfterAMomentThenTheLastVelocityBridgesIt) {
+  pipeline.add(ticks_at(kStart, 0, 0));
+  pipeline.add(ticks_at(kStart + 10ms, 100, 100));
+  const Pose2d before = pipeline.newest_pose(kStart).odom_T_base;
+  WheelTicks restart = ticks_at(kStart + 40ms, 7777, 7777);
+  restart.restarted = true;
+  pipeline.add(restart);
+  EXPECT_EQ(pipeline.newest_pose(kStart).stamp, kStart + 40ms);
+  EXPECT_NEAR(pipeline.newest_pose(kStart).odom_T_base.x_m, 4.0 * before.x_m, 1e-6);
+  EXPECT_EQ(pipeline.counters().bridged, 1U);
+}
+
+TEST_F(PipelineTest, GivenOneDamagedSampleThenItIsLeftOutAndTheNextCoversItsWay) {
+  pipeline.add(ticks_at(kStart, 0, 0));
+  pipeline.add(ticks_at(kStart + 10ms, 100, 100));
+  pipeline.add(ticks_at(kStart + 20ms, 200 + 65536, 200));
+  EXPECT_EQ(pipeline.counters().ticks_left_out, 1U);
+  EXPECT_EQ(pipeline.newest_pose(kStart).stamp, kStart + 10ms);
+  pipeline.add(ticks_at(kStart + 30ms, 300, 300));
+  EXPECT_NEAR(pipeline.newest_pose(kStart).odom_T_base.x_m, 300 * 0.628318530718 / 4096, 1e-9);
+}
+
+TEST_F(PipelineTest, GivenAGyroThatTurnsWhileTheWheelsDoNotThenTheyDisagree) {
+  for (int i = 0; i < 30; ++i) {
+    ImuSample sample{.stamp = kStart + i * 10ms};
+    sample.rate_radps[2] = 0.5F;
+    pipeline.add(sample);
+    pipeline.add(ticks_at(kStart + i * 10ms, 100 * i, 100 * i));
+  }
+  EXPECT_TRUE(pipeline.turns_disagree());
+}
+
+TEST_F(PipelineTest, GivenAHeldMapThenSweepsAreMatchedButNotRemembered) {
+  stand_until(100ms);
+  spin(0, kBeams + 1);
+  ASSERT_TRUE(work());
+  pipeline.hold_map(true);
+  stand_until(300ms);
+  spin(kBeams + 1, 2 * kBeams + 1);
+  ASSERT_TRUE(work());
+  EXPECT_TRUE(pipeline.verdict().accepted);
+  EXPECT_EQ(pipeline.localiser().counters().inserted, 1U);
+}
+
+TEST_F(PipelineTest, GivenCountersThatStartAnewThenThePoseStandsThroughALongGap) {
   pipeline.add(ticks_at(kStart, 0, 0));
   pipeline.add(ticks_at(kStart + 10ms, 100, 100));
   const Pose2d before = pipeline.newest_pose(kStart).odom_T_base;

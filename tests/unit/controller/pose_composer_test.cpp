@@ -102,6 +102,32 @@ TEST_F(PoseComposerTest, GivenACorrectionThenTheJumpIsToldInBaseAndJudged) {
   EXPECT_TRUE(made.jumped()) << "turned by more than 0.035 rad";
 }
 
+TEST_F(PoseComposerTest, GivenCorrectionsThatKeepPointingTheSameWayThenAPull) {
+  PoseComposer made = composer();
+  double offset_m = 0.0;
+  int matches = 0;
+  for (; !made.pulled() && matches < 100; ++matches) {
+    offset_m += 0.03;  // each below the limit of a jump
+    made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
+    EXPECT_FALSE(made.jumped());
+  }
+  EXPECT_EQ(matches, 5) << "0.03 m + 0.9 of what was before, beyond 0.12 m";
+  for (int i = 0; i < 10; ++i) {
+    made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
+  }
+  EXPECT_FALSE(made.pulled()) << "it fades";
+}
+
+TEST_F(PoseComposerTest, GivenCorrectionsThatPointHereAndThereThenNoPull) {
+  PoseComposer made = composer();
+  for (int i = 0; i < 100; ++i) {
+    const double offset_m = i % 2 == 0 ? 0.04 : 0.0;
+    const double turn_rad = i % 2 == 0 ? 0.02 : -0.01;
+    made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, turn_rad}}, {kStart, {}});
+    ASSERT_FALSE(made.pulled());
+  }
+}
+
 TEST_F(PoseComposerTest, GivenAHeadingErrorAtTheMatchThenItSwingsThePoseThatDroveOn) {
   // Against the sampled distribution: the heading at the match is off by 0.02 rad (sigma), the
   // vehicle drives 5 m since.

@@ -12,6 +12,7 @@
 namespace picolo {
 namespace {
 
+constexpr MatchVerdict kGood{.accepted = true, .inlier_share = 0.9F};
 constexpr TaskTable<2> kTable{
     TaskEntry{.name = "first", .budget = 1ms},
     TaskEntry{.name = "second", .budget = 1ms, .policy = OverrunPolicy::fault}};
@@ -20,7 +21,7 @@ constexpr TaskTable<2> kTable{
 /// otherwise.
 struct SupervisorTest : ::testing::Test {
   EventRing ring{};
-  Supervisor supervisor{HealthConfig{}, ring};
+  Supervisor supervisor{HealthConfig{}, MatchTrust{}, ring};
   std::array<TaskState, 2> states{};
   Schedule schedule{ExecutiveConfig{}, kTable, states};
   Timestamp now{1min};
@@ -48,7 +49,7 @@ struct SupervisorTest : ::testing::Test {
     supervisor.update(now, estimate, schedule);
   }
   void track() {
-    for (int i = 0; i < 3; ++i) { supervisor.matched({.accepted = true}); }
+    for (int i = 0; i < 3; ++i) { supervisor.matched(kGood); }
     tick();
     ASSERT_EQ(supervisor.state(), HealthState::tracking);
   }
@@ -70,6 +71,7 @@ TEST_F(SupervisorTest, GivenTheStartThenItIsTheFirstEvent) {
 
 TEST_F(SupervisorTest, GivenAgesFromTheStartThenADeviceHasItsTimeToSpeak) {
   now += 100ms;
+  estimate.stamp = now;
   supervisor.update(now, estimate, schedule);
   EXPECT_EQ(supervisor.reason(), HealthReason::starting);
 }
@@ -97,11 +99,12 @@ TEST_F(SupervisorTest, GivenAnotherCauseInTheSameStateThenTheReasonChangeIsWritt
 TEST_F(SupervisorTest, GivenStampsOutOfOrderThenTheNewestCounts) {
   supervisor.heard(DeviceIndex::wheels, now + 1s);
   supervisor.heard(DeviceIndex::wheels, now + 500ms);
-  supervisor.matched({.accepted = true});
-  supervisor.matched({.accepted = true});
-  supervisor.matched({.accepted = true});
+  supervisor.matched(kGood);
+  supervisor.matched(kGood);
+  supervisor.matched(kGood);
   supervisor.heard(DeviceIndex::lidar, now + 1s);
   supervisor.heard(DeviceIndex::imu, now + 1s);
+  estimate.stamp = now + 1s;
   supervisor.update(now + 1s, estimate, schedule);
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
 }
@@ -138,7 +141,7 @@ TEST_F(SupervisorTest, GivenRejectedMatchesInARowThenDegradedAndLost) {
 TEST_F(SupervisorTest, GivenAnAcceptedMatchBetweenThenTheRowBeginsAnew) {
   track();
   for (int i = 0; i < 20; ++i) {
-    supervisor.matched({.accepted = i % 2 == 0});
+    supervisor.matched({.accepted = i % 2 == 0, .inlier_share = 1.0F});
     tick();
     ASSERT_EQ(supervisor.state(), HealthState::tracking);
   }
@@ -146,12 +149,100 @@ TEST_F(SupervisorTest, GivenAnAcceptedMatchBetweenThenTheRowBeginsAnew) {
 
 TEST_F(SupervisorTest, GivenAnUnobservableDirectionThenDegradedUntilItIsSeen) {
   track();
-  supervisor.matched({.accepted = true, .direction_unobservable = true});
+  supervisor.matched({.accepted = true, .direction_unobservable = true, .inlier_share = 1.0F});
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::direction_unobservable);
-  supervisor.matched({.accepted = true});
+  supervisor.matched(kGood);
   for (int i = 0; i < 25; ++i) { tick(); }
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenJumpsBeyondChanceThenTheSensorsDisagreeUntilGoodMatchesReturn) {
+  track();
+  supervisor.matched(kGood, true);
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::tracking) << "one jump is a correction";
+  supervisor.matched(kGood, true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+  EXPECT_TRUE(supervisor.doubts_pose());
+  supervisor.matched(kGood);
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::degraded) << "one match in a row";
+  for (int i = 0; i < 3; ++i) { supervisor.matched(kGood); }
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::tracking);
+  EXPECT_FALSE(supervisor.doubts_pose());
+}
+
+TEST_F(SupervisorTest, GivenJumpsWithLongPausesThenTheyAreForgiven) {
+  track();
+  for (int round = 0; round < 10; ++round) {
+    supervisor.matched(kGood, true);
+    supervisor.matched(kGood);
+    supervisor.matched(kGood);
+    tick();
+    ASSERT_EQ(supervisor.state(), HealthState::tracking);
+  }
+}
+
+TEST_F(SupervisorTest, GivenAPoorMatchThatJumpsThenTheSensorsDisagreeAtOnce) {
+  track();
+  supervisor.matched({.accepted = true, .inlier_share = 0.4F}, true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+}
+
+TEST_F(SupervisorTest, GivenPoorMatchesWithoutJumpsThenTrackingGoesOn) {
+  track();
+  for (int i = 0; i < 20; ++i) { supervisor.matched({.accepted = true, .inlier_share = 0.4F}); }
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::tracking) << "new surroundings fit nothing yet";
+}
+
+TEST_F(SupervisorTest, GivenALostPoseThenPoorMatchesDoNotBringItBack) {
+  track();
+  for (int i = 0; i < 15; ++i) { supervisor.matched({.accepted = false}); }
+  tick();
+  ASSERT_EQ(supervisor.state(), HealthState::lost);
+  EXPECT_TRUE(supervisor.doubts_pose());
+  for (int i = 0; i < 50; ++i) {
+    supervisor.matched({.accepted = true, .inlier_share = 0.49F});
+    tick();
+    ASSERT_EQ(supervisor.state(), HealthState::lost);
+  }
+  for (int i = 0; i < 5; ++i) { supervisor.matched(kGood); }
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::degraded);
+}
+
+TEST_F(SupervisorTest, GivenAPullThenTheSensorsDisagreeAsLongAsItLasts) {
+  track();
+  supervisor.matched(kGood, false, true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+  supervisor.matched(kGood, false, false);
+  supervisor.matched(kGood, false, false);
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenTurnsThatDisagreeThenDegradedAtOnce) {
+  track();
+  supervisor.turns(true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+  supervisor.turns(false);
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenALongSearchThenDegradedForThatReason) {
+  track();
+  estimate.match_age = 1s;
+  supervisor.searching(true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::relocalising);
 }
 
 TEST_F(SupervisorTest, GivenAVaguePoseThenLost) {

@@ -138,6 +138,12 @@ const auto vague_and_silent = [](HealthInputs& in) {
 const auto not_a_number = [](HealthInputs& in) {
   in.position_variance_m2 = std::numeric_limits<float>::quiet_NaN();
 };
+const auto contradiction = [](HealthInputs& in) { in.sensors_disagree = true; };
+const auto old_match = [](HealthInputs& in) { in.match_age = kConfig.max_match_age + 1us; };
+const auto long_search = [](HealthInputs& in) {
+  in.match_age = kConfig.max_match_age + 1us;
+  in.relocalising = true;
+};
 const auto overran = [](HealthInputs& in) { in.overruns = 1; };
 const auto cycle_fault = [](HealthInputs& in) { in.cycle_fault = true; };
 const auto bad_configuration = [](HealthInputs& in) { in.configuration_refused = true; };
@@ -180,6 +186,12 @@ INSTANTIATE_TEST_SUITE_P(
                    Reason::too_few_points},
         Transition{"tracking_corridor", State::tracking, corridor, State::degraded,
                    Reason::direction_unobservable},
+        Transition{"tracking_contradiction", State::tracking, contradiction, State::degraded,
+                   Reason::sensors_disagree},
+        Transition{"tracking_old_match", State::tracking, old_match, State::degraded,
+                   Reason::match_rejected},
+        Transition{"tracking_long_search", State::tracking, long_search, State::degraded,
+                   Reason::relocalising},
         Transition{"tracking_overrun", State::tracking, overran, State::degraded, Reason::overrun},
         Transition{"tracking_both_silent", State::tracking, both_silent, State::degraded,
                    Reason::lidar_silent},
@@ -294,8 +306,8 @@ TEST(Health, EveryStateAndReasonHasItsOwnName) {
   std::set<std::string> names;
   for (int i = 0; i <= 4; ++i) { names.insert(to_string(static_cast<State>(i))); }
   EXPECT_EQ(names.size(), 5U);
-  for (int i = 0; i <= 11; ++i) { names.insert(to_string(static_cast<Reason>(i))); }
-  EXPECT_EQ(names.size(), 17U);
+  for (int i = 0; i <= 12; ++i) { names.insert(to_string(static_cast<Reason>(i))); }
+  EXPECT_EQ(names.size(), 18U);
   EXPECT_EQ(names.count("unknown"), 0U);
   EXPECT_STREQ(to_string(static_cast<State>(99)), "unknown");
   EXPECT_STREQ(to_string(static_cast<Reason>(99)), "unknown");
@@ -310,6 +322,7 @@ TEST(HealthConfig, GivenLimitsThatContradictEachOtherThenRefused) {
   EXPECT_TRUE(refused([](HealthConfig& c) { c.max_lidar_age = 0us; }));
   EXPECT_TRUE(refused([](HealthConfig& c) { c.max_wheels_age = -1us; }));
   EXPECT_TRUE(refused([](HealthConfig& c) { c.max_gyro_age = 0us; }));
+  EXPECT_TRUE(refused([](HealthConfig& c) { c.max_match_age = 0us; }));
   EXPECT_TRUE(refused([](HealthConfig& c) { c.max_blind = c.max_wheels_age - 1us; }));
   EXPECT_TRUE(refused([](HealthConfig& c) { c.initial_matches = 0; }));
   EXPECT_TRUE(refused([](HealthConfig& c) { c.lost_rejections = c.degraded_rejections; }));

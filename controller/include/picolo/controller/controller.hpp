@@ -62,7 +62,7 @@ class Controller {
         localiser_(config_.localiser),
         pipeline_(config_, {first_sweep_, second_sweep_, x_m_, y_m_}, localiser_.core()),
         composer_(config_),
-        supervisor_(config_.health, events),
+        supervisor_(config_.health, config_.trust, events),
         executive_(config_.cycle, controller_tasks(config_.work, config_.budgets), board.clock,
                    board.cycle_counter, board.watchdog) {}
   Controller(const Controller&) = delete;
@@ -76,10 +76,7 @@ class Controller {
     supervisor_.start(now, events_.attach());
     composer_.start(now);
     const Status status = configuration_valid_ ? executive_.start() : Status::invalid_argument;
-    if (status != Status::ok) {
-      supervisor_.refuse_configuration();
-      supervisor_.update(now, estimate_, executive_.schedule());
-    }
+    if (status != Status::ok) { supervisor_.refuse_configuration(); }
     publish(now);
     return status;
   }
@@ -113,8 +110,9 @@ class Controller {
       case ControllerTask::serial: drain_serial(work_bound); break;
       case ControllerTask::odometry: integrate(); break;
       case ControllerTask::undistort: pipeline_.undistort(work_bound); break;
-      case ControllerTask::match: match(work_bound); break;
+      case ControllerTask::match: judge(pipeline_.match(work_bound)); break;
       case ControllerTask::map: pipeline_.map(work_bound); break;
+      case ControllerTask::background: judge(pipeline_.search(work_bound)); break;
       case ControllerTask::report: report(); break;
     }
     return true;
@@ -175,31 +173,33 @@ class Controller {
   void integrate() {
     for (const WheelTicks& ticks : ticks_) { pipeline_.add(ticks); }
     ticks_.clear();
+    supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
+    supervisor_.turns(pipeline_.turns_disagree());
+    supervisor_.searching(pipeline_.searching());
+    pipeline_.hold_map(supervisor_.doubts_pose());
     publish(frame_.start);
   }
 
   void publish(Timestamp now) {
     estimate_ =
         composer_.compose(now, pipeline_.newest_pose(now), pipeline_.odometry().base_twist());
+    // Judged before each publication: what is wrong must not be told as tracking even a few times.
+    supervisor_.update(now, estimate_, executive_.schedule());
     estimate_.state = supervisor_.state();
     estimate_.reason = supervisor_.reason();
     published_.publish(estimate_);
   }
 
-  void match(std::uint32_t max_point_iterations) {
-    if (!pipeline_.match(max_point_iterations)) { return; }
+  void judge(bool match_ended) {
+    if (!match_ended) { return; }
     const MatchVerdict& verdict = pipeline_.verdict();
-    supervisor_.matched(verdict);
-    if (!verdict.accepted) { return; }
-    composer_.correct(verdict, pipeline_.newest_pose(frame_.start));
-    if (composer_.jumped()) {
-      supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm());
-    }
+    if (verdict.accepted) { composer_.correct(verdict, pipeline_.newest_pose(frame_.start)); }
+    const bool jumped = verdict.accepted && composer_.jumped();
+    supervisor_.matched(verdict, jumped, composer_.pulled());
+    if (jumped) { supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm()); }
   }
 
   void report() {
-    supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
-    supervisor_.update(frame_.start, estimate_, executive_.schedule());
     if (!config_.frames_out.enabled) { return; }
     send(encode_pose(config_.frames_out, estimate_));
     send(encode_health(config_.frames_out, estimate_, report_counter_));

@@ -7,6 +7,7 @@
 
 #include <cstdint>
 
+#include "picolo/controller/plausibility.hpp"
 #include "picolo/core/time.hpp"
 #include "picolo/executive/task.hpp"
 #include "picolo/geometry/pose2.hpp"
@@ -27,9 +28,11 @@ struct WorkBounds {
   std::uint32_t max_returns = 384;            ///< undistorted
   std::uint32_t max_point_iterations = 2880;  ///< of the match; at least one iteration is done
   std::uint32_t max_rays = 128;               ///< into the map
+  /// Of SearchConfig::lookups_per_step lookups, in the background.
+  std::uint32_t max_search_slices = 4;
   [[nodiscard]] constexpr bool valid() const {
     return max_can_frames > 0 && max_serial_bytes > 0 && max_returns > 0 &&
-           max_point_iterations > 0 && max_rays > 0;
+           max_point_iterations > 0 && max_rays > 0 && max_search_slices > 0;
   }
 };
 
@@ -39,8 +42,9 @@ struct TaskBudgets {
   Duration serial{500};
   Duration odometry{200};
   Duration undistort{600};
-  Duration match{1800};
-  Duration map{1200};
+  Duration match{1400};
+  Duration map{1000};
+  Duration background{600};
   Duration report{400};
 };
 
@@ -57,6 +61,27 @@ struct CovarianceGrowth {
   [[nodiscard]] constexpr bool valid() const {
     return position_per_m >= 0.0F && position_per_rad_m >= 0.0F && heading_per_m_rad >= 0.0F &&
            heading_per_rad >= 0.0F && drift_per_m >= 0.0F && drift_heading_per_m_rad >= 0.0F;
+  }
+};
+
+/// When accepted matches are to be doubted. Poor ones and jumps do not help a pose to be trusted
+/// again. A jump raises the doubt by two, one that fits poorly by four; a good match without jump
+/// lowers it by one.
+struct MatchTrust {
+  float good_inlier_share = 0.5F;  ///< a match with fewer points near obstacles is poor
+  /// A correction that moves the pose further is a jump, told as an event, ...
+  float max_correction_m = 0.05F;
+  float max_correction_rad = 0.035F;  ///< ... or turns it further
+  int max_doubt = 3;                  ///< beyond it the sensors disagree
+  /// Corrections that keep pointing the same way add up to a pull; chance ones cancel. Beyond these
+  /// the sensors disagree.
+  float max_pull_m = 0.12F;
+  float max_pull_rad = 0.06F;
+  float pull_kept = 0.9F;  ///< share that remains from one match to the next
+  [[nodiscard]] constexpr bool valid() const {
+    return good_inlier_share >= 0.0F && good_inlier_share <= 1.0F && max_correction_m >= 0.0F &&
+           max_correction_rad >= 0.0F && max_doubt >= 0 && max_pull_m > 0.0F &&
+           max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
   }
 };
 
@@ -80,19 +105,30 @@ struct ControllerConfig {
   UndistortConfig undistort{};  ///< base_T_lidar is here
   LocaliserConfig localiser{};
   CovarianceGrowth growth{};
+  PlausibilityConfig plausibility{};
+  MatchTrust trust{};
   HealthConfig health{};
   FramesOutConfig frames_out{};
   Pose2d start_map_T_base{};  ///< where the vehicle stands when the controller starts
   /// The published pose runs ahead of the odometry by at most this.
   Duration max_prediction = 25ms;
-  float min_jump_event_m = 0.05F;     ///< corrections that move the pose further are told as events
-  float min_jump_event_rad = 0.035F;  ///< ... or turn it further
+  /// A gap of the wheels up to this long is bridged with their last velocity and the gyro's turn.
+  Duration max_bridge = 200ms;
   [[nodiscard]] constexpr bool valid() const;
 };
 
 /// Order of the task table; the index in events and counters.
-enum class ControllerTask : std::uint8_t { can, serial, odometry, undistort, match, map, report };
-inline constexpr std::size_t kControllerTasks = 7;
+enum class ControllerTask : std::uint8_t {
+  can,
+  serial,
+  odometry,
+  undistort,
+  match,
+  map,
+  background,
+  report
+};
+inline constexpr std::size_t kControllerTasks = 8;
 
 /// The static table: who runs when, bounded by what.
 [[nodiscard]] constexpr TaskTable<kControllerTasks> controller_tasks(const WorkBounds& work,
@@ -105,6 +141,8 @@ inline constexpr std::size_t kControllerTasks = 7;
       TaskEntry{.name = "match", .work_bound = work.max_point_iterations, .budget = budgets.match},
       TaskEntry{.name = "map", .work_bound = work.max_rays, .budget = budgets.map},
       TaskEntry{
+          .name = "background", .work_bound = work.max_search_slices, .budget = budgets.background},
+      TaskEntry{
           .name = "report", .period_frames = 5, .offset_frames = 4, .budget = budgets.report}};
 }
 
@@ -113,8 +151,8 @@ constexpr bool ControllerConfig::valid() const {
          dead_reckoning.valid() && sweeps.max_gap > Duration{0} && sweeps.valid() &&
          undistort.valid() && undistort.frame == SweepFrame::base &&
          undistort.reference != SweepReference::stamp && localiser.valid() && growth.valid() &&
-         health.valid() && frames_out.valid() && max_prediction >= Duration{0} &&
-         min_jump_event_m >= 0.0F && min_jump_event_rad >= 0.0F;
+         plausibility.valid() && trust.valid() && health.valid() && frames_out.valid() &&
+         max_prediction >= Duration{0} && max_bridge >= Duration{0};
 }
 static_assert(ControllerConfig{}.valid());
 

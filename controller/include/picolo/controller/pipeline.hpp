@@ -36,7 +36,9 @@ struct PipelineCounters {
   std::uint32_t sweeps_uncovered = 0;  ///< dropped: they begin before the oldest remembered pose
   std::uint32_t sweeps_refused = 0;    ///< dropped: inconsistent stamps or too many returns
   std::uint32_t increments = 0;        ///< of the wheels
-  std::uint32_t ticks_refused = 0;     ///< not newer than their predecessor
+  std::uint32_t bridged = 0;         ///< gaps of the wheels after which their counters started anew
+  std::uint32_t ticks_refused = 0;   ///< not newer than their predecessor
+  std::uint32_t ticks_left_out = 0;  ///< faster than the vehicle can be
 };
 
 /// The end of a match.
@@ -45,9 +47,10 @@ struct MatchVerdict {
   bool direction_unobservable = false;
   HealthReason rejection = HealthReason::none;
   Timestamp reference{};
-  Pose2d odom_T_base{};   ///< odometry at `reference`
-  Pose2d map_T_base{};    ///< at `reference`
-  Matrix3f covariance{};  ///< of map_T_base, map axes
+  Pose2d odom_T_base{};       ///< odometry at `reference`
+  Pose2d map_T_base{};        ///< at `reference`
+  Matrix3f covariance{};      ///< of map_T_base, map axes
+  float inlier_share = 0.0F;  ///< of the points; 1 for the first sweep, which founds the map
 };
 
 /// One sweep at a time goes through undistortion, match and map update; a newer one waits in the
@@ -62,10 +65,10 @@ class Pipeline {
   Pipeline& operator=(const Pipeline&) = delete;
   ~Pipeline() = default;
 
-  void add(const ImuSample& sample) { dead_reckoning_.add(sample); }
-  void add(const RangeReading& reading) { sweeps_.add(reading); }
-  /// Advances odometry and remembers its pose.
-  void add(const WheelTicks& ticks);
+  void add(const ImuSample& sample);
+  void add(const RangeReading& reading);
+  /// Advances odometry and remembers its pose. Damaged counts are left out.
+  void add(WheelTicks ticks);
 
   /// Handles at most `max_returns` returns of the sweep, once the poses cover it. A sweep that
   /// cannot be undistorted is dropped and counted.
@@ -73,6 +76,12 @@ class Pipeline {
   /// As many iterations as `max_point_iterations` allow, at least one. True when a match ended in
   /// this call: see `verdict`.
   bool match(std::size_t max_point_iterations);
+  /// At most `max_slices` slices of a search, where the match has come to need one. True as for
+  /// `match`.
+  bool search(std::size_t max_slices);
+  [[nodiscard]] bool searching() const { return localiser_.searching(); }
+  /// See LocaliserCore.
+  void hold_map(bool held) { localiser_.hold_map(held); }
   /// At most `max_rays` rays into the map.
   void map(std::size_t max_rays);
 
@@ -84,17 +93,24 @@ class Pipeline {
   [[nodiscard]] StampedPose newest_pose(Timestamp otherwise) const {
     return poses_.size() > 0 ? poses_.newest() : StampedPose{otherwise, {}};
   }
+  /// Wheels and gyro turn differently.
+  [[nodiscard]] bool turns_disagree() const { return turn_check_.disagrees(); }
   /// End of the newest complete sweep; the epoch before the first.
   [[nodiscard]] Timestamp last_sweep_end() const { return last_sweep_end_; }
   [[nodiscard]] const PipelineCounters& counters() const { return counters_; }
   [[nodiscard]] const SweepCounters& sweep_counters() const { return sweeps_.counters(); }
 
  private:
+  void bridge(Timestamp to);
   void take_sweep();
   void conclude();
 
   UndistortConfig undistort_;
+  Duration max_bridge_;
   LocaliserCore& localiser_;
+  float gyro_sign_;
+  WheelGate gate_;
+  TurnCheck turn_check_;
   DifferentialDrive drive_;
   DeadReckoning dead_reckoning_;
   std::array<StampedPose, kRememberedPoses> pose_storage_{};
@@ -103,6 +119,7 @@ class Pipeline {
   UndistorterCore undistorter_;
   MatchVerdict verdict_{};
   Timestamp last_sweep_end_{};
+  Timestamp last_reading_{};
   PipelineStage stage_ = PipelineStage::waiting;
   PipelineCounters counters_{};
 };

@@ -31,7 +31,9 @@ class PoseComposer {
   [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
   /// The last correction moved or turned the published pose by more than configured.
   [[nodiscard]] bool jumped() const { return jumped_; }
-  /// How far, in millimetres.
+  /// The last corrections went the same way for so long that odometry and lidar must disagree.
+  [[nodiscard]] bool pulled() const;
+  /// How far the last correction went, in millimetres.
   [[nodiscard]] std::int32_t jump_mm() const;
 
  private:
@@ -43,8 +45,7 @@ class PoseComposer {
 
   CovarianceGrowth growth_;
   Duration max_prediction_;
-  float min_jump_m_;
-  float min_jump_rad_;
+  MatchTrust trust_;
   Pose2d map_T_odom_{};
   Timestamp reference_{};
   Pose2d reference_odom_T_base_{};
@@ -54,6 +55,7 @@ class PoseComposer {
   Way since_match_{};
   Way since_start_{};
   Pose2f last_jump_{};
+  Pose2f pull_{};  // sum of jumps, fading; theta is a sum, not wrapped
   std::uint32_t matches_ = 0;
   bool jumped_ = false;
 };

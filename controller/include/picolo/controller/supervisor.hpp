@@ -20,7 +20,8 @@ namespace picolo::inline v0 {
 class Supervisor {
  public:
   /// `events` outlives the supervisor and is attached.
-  Supervisor(const HealthConfig& config, EventRing& events) : monitor_(config), events_(events) {}
+  Supervisor(const HealthConfig& health, const MatchTrust& trust, EventRing& events)
+      : monitor_(health), trust_(trust), events_(events) {}
 
   /// Ages count from here. `kept`: the ring holds events of the run before.
   void start(Timestamp now, bool kept);
@@ -30,7 +31,18 @@ class Supervisor {
   void heard(DeviceIndex device, Timestamp stamp);
   /// What a device's line answered last; changes to and from `disconnected` become events.
   void line(DeviceIndex device, Status status, Timestamp now);
-  void matched(const MatchVerdict& verdict);
+  /// `jumped`: it is accepted and moved the pose beyond the limits. `pulled`: so did the last ones
+  /// together.
+  void matched(const MatchVerdict& verdict, bool jumped = false, bool pulled = false);
+  /// Wheels and gyro turn differently, or no longer.
+  void turns(bool disagree) { turns_disagree_ = disagree; }
+  /// The localiser is searching.
+  void searching(bool searching) { searching_ = searching; }
+  /// The pose is lost, or the sensors contradict each other: nothing seen from it should be
+  /// remembered.
+  [[nodiscard]] bool doubts_pose() const {
+    return state() == HealthState::lost || reason() == HealthReason::sensors_disagree;
+  }
   void event(Timestamp now, EventCode code, std::int32_t argument);
   /// Judges everything. `estimate` is the last published.
   void update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule);
@@ -54,6 +66,7 @@ class Supervisor {
   void report_cycle(Timestamp now, const Schedule& schedule);
 
   HealthMonitor monitor_;
+  MatchTrust trust_;
   EventRing& events_;
   std::array<Watch, kDeviceCount> watches_{};
   std::array<std::uint32_t, kControllerTasks> overruns_{};
@@ -61,8 +74,12 @@ class Supervisor {
   std::uint32_t cycle_troubles_ = 0;  // overruns and slipped frames
   int accepted_streak_ = 0;
   int rejected_streak_ = 0;
+  int doubt_ = 0;
+  bool pulled_ = false;
   HealthReason rejection_ = HealthReason::match_rejected;
   bool direction_unobservable_ = false;
+  bool turns_disagree_ = false;
+  bool searching_ = false;
   bool configuration_refused_ = false;
 };
 

@@ -17,6 +17,7 @@ struct HealthConfig {
   Duration max_wheels_age = 100ms;  ///< since the last wheel ticks
   Duration max_gyro_age = 100ms;    ///< since the last IMU sample
   Duration max_blind = 500ms;       ///< with neither lidar nor wheels: after that, lost
+  Duration max_match_age = 300ms;   ///< since the last accepted match: degraded
   bool expects_gyro = true;         ///< false: its absence is no loss
   int initial_matches = 3;      ///< accepted in a row before the pose is trusted for the first time
   int degraded_rejections = 2;  ///< matches rejected in a row: degraded
@@ -31,10 +32,10 @@ struct HealthConfig {
   [[nodiscard]] constexpr bool valid() const {
     return max_lidar_age > Duration{0} && max_wheels_age > Duration{0} &&
            max_gyro_age > Duration{0} && max_blind >= max_lidar_age &&
-           max_blind >= max_wheels_age && initial_matches > 0 && degraded_rejections > 0 &&
-           lost_rejections > degraded_rejections && max_position_variance_m2 > 0.0F &&
-           recover_matches > 0 && recover_after >= Duration{0} && relocalised_matches > 0 &&
-           overrun_hold >= Duration{0};
+           max_blind >= max_wheels_age && max_match_age > Duration{0} && initial_matches > 0 &&
+           degraded_rejections > 0 && lost_rejections > degraded_rejections &&
+           max_position_variance_m2 > 0.0F && recover_matches > 0 && recover_after >= Duration{0} &&
+           relocalised_matches > 0 && overrun_hold >= Duration{0};
   }
 };
 
@@ -49,6 +50,7 @@ struct HealthInputs {
   int rejected_streak = 0;  ///< matches rejected since the last accepted one
   HealthReason rejection = HealthReason::match_rejected;  ///< why the last one was rejected
   bool direction_unobservable = false;  ///< the last accepted match left a direction to odometry
+  bool sensors_disagree = false;        ///< wheels, gyro and lidar tell different motions
   bool relocalising = false;            ///< a wide search is running
   /// Larger eigenvalue or trace of the position part; a NaN counts as too large.
   float position_variance_m2 = 0.0F;

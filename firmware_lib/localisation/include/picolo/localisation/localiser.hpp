@@ -121,6 +121,13 @@ class LocaliserCore {
   Status process(const UndistortedSweep& sweep, bool odometry_valid);
 
   [[nodiscard]] LocaliserPhase phase() const { return phase_; }
+  /// The next `match_step` is a slice of a search; callers may want to run that as background work.
+  [[nodiscard]] bool searching() const {
+    return phase_ == LocaliserPhase::matching && stage_ == Stage::search;
+  }
+  /// While held, accepted matches correct the pose but no sweep enters the map: what is seen from a
+  /// pose that is in doubt would be believed for ever. The first sweep founds the map all the same.
+  void hold_map(bool held) { map_held_ = held; }
   /// Of the last sweep whose match is over.
   [[nodiscard]] const MatchReport& report() const { return report_; }
   [[nodiscard]] bool accepted() const { return accepted_; }
@@ -180,6 +187,7 @@ class LocaliserCore {
   bool with_odometry_ = false;
   bool accepted_ = false;
   bool adding_hits_ = false;
+  bool map_held_ = false;
   std::size_t next_point_ = 0;
   LocaliserCounters counters_{};
 };

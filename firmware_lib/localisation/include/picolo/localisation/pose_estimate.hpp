@@ -28,6 +28,7 @@ enum class HealthReason : std::uint8_t {
   relocalising = 9,
   configuration = 10,  ///< a part refuses its configuration
   overrun = 11,        ///< the cycle missed its deadlines
+  sensors_disagree = 12,    ///< wheels, gyro and lidar tell different motions
 };
 
 [[nodiscard]] const char* to_string(HealthState state);

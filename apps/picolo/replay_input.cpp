@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 #include "picolo/host/error.hpp"
 
@@ -40,6 +41,18 @@ std::vector<RangeReturn> returns_of(const std::vector<float>& ranges_m,
   return returns;
 }
 
+/// The order in which a lidar that turns clockwise from its x axis measures, as on the wires: sums
+/// over points then run alike, however the log is replayed.
+void order_clockwise(std::vector<RangeReturn>& returns) {
+  const auto clockwise_rad = [](const RangeReturn& beam) {
+    return beam.bearing_rad > 0.0F ? 2.0F * std::numbers::pi_v<float> - beam.bearing_rad
+                                   : -beam.bearing_rad;
+  };
+  std::stable_sort(returns.begin(), returns.end(), [&](const auto& a, const auto& b) {
+    return clockwise_rad(a) < clockwise_rad(b);
+  });
+}
+
 void add_instants(const host::CarmenLog& log, const ReplaySettings& settings, ReplayInput& input) {
   for (const host::LogScan& scan : log.scans) {
     const Timestamp stamp =
@@ -48,6 +61,7 @@ void add_instants(const host::CarmenLog& log, const ReplaySettings& settings, Re
     input.scans.push_back({scan.line, scan.stamp_s, stamp, stamp,
                            returns_of(scan.ranges_m, scan.bearings_rad, 0.0),
                            limits_of(scan, settings), to_f32(mount), scan.odom_T_base});
+    order_clockwise(input.scans.back().returns);
     input.poses.push_back({stamp, input.use_odometry ? scan.odom_T_base : Pose2d{}});
   }
 }

@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "commands/demo_drive.hpp"
 
-#include <time.h>  // NOLINT(modernize-deprecated-headers): clock_gettime is POSIX
-
 #include <algorithm>
 #include <memory>
 
@@ -11,6 +9,7 @@
 #include "picolo/host/map_image.hpp"
 #include "picolo/host/quantile.hpp"
 #include "picolo/simulated/simulated_controller.hpp"
+#include "processor_time.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -19,18 +18,6 @@ using Robot = SimulatedController<SiteProfile>;
 
 constexpr int kFramesPerSecond = 200;
 constexpr int kFramesPerPose = 20;
-
-/// Nanoseconds that this machine's processor spent on the cycle; a busy machine does not lengthen
-/// them.
-class HostCycleCounter final : public CycleCounter {
- public:
-  std::uint32_t cycles() override {
-    timespec now{};
-    (void)clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
-    return static_cast<std::uint32_t>(now.tv_sec * 1'000'000'000LL + now.tv_nsec);
-  }
-  [[nodiscard]] std::uint32_t cycles_per_us() const override { return 1000; }
-};
 
 /// Keeps the length of every run, in memory taken beforehand.
 class TaskTimes {
@@ -70,7 +57,7 @@ void keep_pose(const Robot& robot, DemoResult& result) {
 DemoResult drive_demo(const DemoSettings& settings,
                       const std::function<void(std::size_t)>& progress) {
   const int frames = settings.seconds * kFramesPerSecond;
-  HostCycleCounter cycles;
+  ProcessorTimeCounter cycles;
   TaskTimes times{static_cast<std::size_t>(frames)};
   const auto robot = std::make_unique<Robot>(sim::SimulationConfig{.seed = settings.seed},
                                              simulated_vehicle_config(), &cycles);

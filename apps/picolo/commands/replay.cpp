@@ -15,6 +15,7 @@
 #include "picolo/host/library_config.hpp"
 #include "picolo/host/quantile.hpp"
 #include "replay_input.hpp"
+#include "wire_replay.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -24,6 +25,7 @@ struct Options {
   std::string log;
   std::string reference;
   bool no_odometry = false;
+  bool wire = false;
   std::optional<std::string> profile;
   std::optional<float> max_range_m;
   std::vector<double> lidar;
@@ -112,7 +114,8 @@ ExitCode replay(const Options& options) {
     host::LineReader reference_reader{options.reference};
     reference = read_tum(reference_reader, diagnostics);
   }
-  DriveResult drive = replay_directly(input, settings);
+  DriveResult drive = options.wire ? replay_through_wires(input, settings, diagnostics)
+                                   : replay_directly(input, settings);
   drive.truth = reference.poses;
   drive.truth_name = "reference";
   const DriveErrors errors = evaluate(drive);
@@ -139,6 +142,8 @@ void add_replay(CLI::App& app, Action& action) {
       ->type_name("REF.tum");
   command->add_flag("--no-odometry", options->no_odometry,
                     "Do not give the log's odometry to the localiser");
+  command->add_flag("--wire", options->wire,
+                    "Play the log as CAN frames and lidar bytes into the installed controller");
   command->add_option("--profile", options->profile, "How much it remembers: room, hall or site")
       ->type_name("NAME");
   command->add_option("--max-range", options->max_range_m, "Longer ranges are no measurements")
@@ -156,6 +161,8 @@ void add_replay(CLI::App& app, Action& action) {
       "  picolo replay freiburg-079.clf.gz\n"
       "  picolo replay freiburg-079.clf.gz --reference freiburg-079_ref.tum.gz --json\n"
       "      prints the error after alignment: \"ape\":{\"rmse\":...} in metres\n"
+      "  picolo replay freiburg-101.clf.gz --wire\n"
+      "      stop-and-scan in virtual time through drivers and cyclic executive\n"
       "  picolo replay hand-held.clf.gz --no-odometry --out /tmp/lidar-only\n"
       "\n"
       "Records: FLASER, ROBOTLASER1 (scans with odometry), or SWEEP with ODOM; other lines are\n"

@@ -12,28 +12,18 @@
 #include "room_log.hpp"
 #include "support/data.hpp"
 #include "tool_run.hpp"
+#include "tum_text.hpp"
 
 namespace picolo {
 namespace {
 
+using test::first_fields;
+using test::out;
 using test::run_tool;
 using test::TemporaryFolder;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 using ::testing::Not;
-
-std::vector<std::string> first_fields(const std::string& text) {
-  std::vector<std::string> fields;
-  std::istringstream lines{text};
-  for (std::string line; std::getline(lines, line);) {
-    fields.push_back(line.substr(0, line.find(' ')));
-  }
-  return fields;
-}
-
-std::string out(const TemporaryFolder& folder, const std::string& name) {
-  return test::content_of(folder.path() / "picolo-out" / name);
-}
 
 TEST(Replay, ADriveInARoomFollowsTheTruthAndWritesEverything) {
   const TemporaryFolder folder;

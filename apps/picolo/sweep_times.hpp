@@ -1,0 +1,42 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How long the cycle works on a sweep.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+#include "picolo/controller/controller_config.hpp"
+#include "picolo/controller/pipeline.hpp"
+
+namespace picolo::tool {
+
+/// Adds up what the tasks that work on sweeps take; runs that found nothing to do do not count.
+class SweepTimes {
+ public:
+  explicit SweepTimes(const Pipeline& pipeline) : pipeline_{pipeline} {}
+
+  void ran(std::size_t task, std::uint32_t cycles) {
+    const bool busy = was_busy_ || pipeline_.stage() != PipelineStage::waiting;
+    was_busy_ = pipeline_.stage() != PipelineStage::waiting;
+    const auto which = static_cast<ControllerTask>(task);
+    if (!busy || (which != ControllerTask::undistort && which != ControllerTask::match &&
+                  which != ControllerTask::map)) {
+      return;
+    }
+    total_us_ += 1e-3 * cycles;
+    match_us_ += which == ControllerTask::match ? 1e-3 * cycles : 0.0;
+  }
+  void reset() { total_us_ = match_us_ = 0.0; }
+  [[nodiscard]] double total_us() const { return total_us_; }
+  [[nodiscard]] double match_us() const { return match_us_; }
+
+ private:
+  const Pipeline& pipeline_;
+  bool was_busy_ = false;
+  double total_us_ = 0.0;
+  double match_us_ = 0.0;
+};
+
+}  // namespace picolo::tool

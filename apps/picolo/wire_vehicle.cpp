@@ -33,10 +33,18 @@ ControllerConfig controller_config(const ReplayInput& input, const ReplaySetting
   config.undistort.limits = input.scans.front().limits;
   config.localiser = settings.localiser;
   config.start_map_T_base = input.scans.front().odom_T_base;
+  // Scans of a log may lie a metre of bad odometry apart: corrections that would be contradictions
+  // ten times a second are in order here, as they are in direct replay.
+  config.trust = {.good_inlier_share = 0.0F,
+                  .max_correction_m = 100.0F,
+                  .max_correction_rad = 4.0F,
+                  .max_pull_m = 1e6F,
+                  .max_pull_rad = 1e6F};
   // of a computer, not of a microcontroller
   config.work.max_returns = 4096;
   config.work.max_point_iterations = 20'000;
   config.work.max_rays = 2048;
+  config.work.max_search_slices = 64;
   return config;
 }
 

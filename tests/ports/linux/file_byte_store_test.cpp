@@ -93,6 +93,7 @@ TEST_F(FileByteStoreTest, GivenBadConfigurationsThenTheyAreRefused) {
   EXPECT_FALSE(std::filesystem::exists(path()));
   FileByteStore nowhere{};
   EXPECT_EQ(nowhere.open("/no/such/folder/store"), Status::io_error);
+  EXPECT_EQ(nowhere.open((folder.path() / std::string(200, 'x') / "y").c_str()), Status::io_error);
 }
 
 TEST_F(FileByteStoreTest, GivenAClosedStoreThenEveryCallFails) {

@@ -198,6 +198,18 @@ TEST(SocketCanBus, GivenNoSuchInterfaceThenDisconnected) {
   EXPECT_EQ(bus.open("no_such_can0"), Status::disconnected);
 }
 
+TEST(SocketCanBus, GivenAnInterfaceThatIsNoCanThenItIsRefused) {
+  LinuxClock clock;
+  SocketCanBus bus{clock};
+  const std::array filters{CanFilter{.id = 0x181}};
+  const Status status = bus.open("lo", filters);
+  // Without CAN in the kernel the socket cannot be made; with it "lo" cannot be bound.
+  EXPECT_TRUE(status == Status::unsupported || status == Status::disconnected) << to_string(status);
+  EXPECT_FALSE(bus.is_open());
+  const std::vector<CanFilter> too_many(100);
+  EXPECT_EQ(bus.open("lo", too_many), Status::invalid_argument);
+}
+
 TEST(SocketCanBus, GivenABadDescriptorThenAdoptRefuses) {
   LinuxClock clock;
   SocketCanBus bus{clock};

@@ -104,6 +104,15 @@ TEST_F(TermiosTest, GivenAnUnpluggedDeviceThenItIsLookedForOnlyOncePerPeriod) {
   EXPECT_EQ(port.lost(), 0U);
 }
 
+TEST_F(TermiosTest, GivenAnUnpluggedDeviceThenWritingNoticesItToo) {
+  TermiosSerialPort port{clock, {}};
+  ASSERT_EQ(port.open(terminal.path().c_str()), Status::ok);
+  EXPECT_EQ(port.write({}).value_or(99), 0U);
+  terminal.unplug();
+  EXPECT_EQ(port.write(buffer).status(), Status::disconnected);
+  EXPECT_EQ(port.disconnects(), 1U);
+}
+
 TEST_F(TermiosTest, GivenAnAdoptedLineThenItIsNotOpenedAgain) {
   TermiosSerialPort port{clock, {}};
   ASSERT_EQ(port.adopt(::open(terminal.path().c_str(), O_RDWR | O_NOCTTY)), Status::ok);

@@ -160,6 +160,23 @@ TEST(CanopenNode, WhenResetThenItBootsAndCountsFromItsInitialPosition) {
   EXPECT_GT(position(pdos[1]), 50'000);
 }
 
+TEST(CanopenNode, WhenOnlyItsCommunicationIsResetThenItBootsAndKeepsItsPosition) {
+  Network network;
+  network.live(500ms);
+  network.command(0x82, 0);
+  bool booted = false;
+  for (const CanFrame& frame : network.live(50ms)) {
+    booted = booted || (frame.id == 0x701 && frame.data[0] == 0x00);
+  }
+  EXPECT_TRUE(booted);
+  network.command(0x01, 0);
+  network.command(0x55, 0);  // no command that CiA 301 knows
+  network.live(1ms);
+  const auto pdos = network.sync();
+  ASSERT_EQ(pdos.size(), 2U);
+  EXPECT_GT(position(pdos[0]), 50'000);
+}
+
 TEST(CanopenNode, GivenEveryThirdSyncThenTwoOfThreeAreSkipped) {
   Network network{WheelPairConfig{.left = {.node = 1, .syncs_per_pdo = 3}, .right = {.node = 2}}};
   network.live(50ms);

@@ -289,6 +289,30 @@ TEST(SimulatedFaults, GivenASilentImuThenNoSamplesInTheWindow) {
   EXPECT_NEAR(static_cast<double>(out.imu.size()), 1000.0, 4.0);
 }
 
+TEST(SimulatedFaults, GivenAnUnpluggedLidarThenNoReadingsInTheWindowAndNoneDamagedAfterIt) {
+  const Decoded out = run_with(Device::lidar, FaultKind::disconnect);
+  std::size_t inside = 0;
+  std::size_t after = 0;
+  for (const RangeReading& reading : out.readings) {
+    inside += reading.stamp > Timestamp{5s} && reading.stamp < Timestamp{10s} - 5ms ? 1U : 0U;
+    after += reading.stamp >= Timestamp{10s} ? 1U : 0U;
+  }
+  EXPECT_EQ(inside, 0U);
+  EXPECT_NEAR(static_cast<double>(after), 22'500.0, 40.0);
+}
+
+TEST(SimulatedFaults, GivenAFrozenLidarThenItsPacketsRepeatAndAreWellFormed) {
+  const Decoded out = run_with(Device::lidar, FaultKind::freeze);
+  std::vector<float> ranges_m;
+  for (const RangeReading& reading : out.readings) {
+    if (reading.stamp < Timestamp{5s} + 10ms || reading.stamp >= Timestamp{10s} - 5ms) { continue; }
+    ranges_m.push_back(reading.range_m);
+  }
+  ASSERT_GT(ranges_m.size(), 22'000U);
+  for (std::size_t i = 12; i < ranges_m.size(); ++i) { ASSERT_EQ(ranges_m[i], ranges_m[i - 12]); }
+  EXPECT_EQ(out.lidar_counters.bad_checksums, 0U);
+}
+
 TEST(SimulatedFaults, GivenAFrozenGyroThenItsValuesStandStill) {
   const Decoded out = run_with(Device::imu, FaultKind::freeze);
   std::array<float, 3> first{};

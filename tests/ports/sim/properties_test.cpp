@@ -62,15 +62,15 @@ std::uint64_t one_second(std::uint64_t seed, const std::vector<int>& stops_us) {
 }
 
 TEST(SimulationProperties, HoweverTimeIsCutTheWiresCarryTheSame) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const auto seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
     const auto stops = *rc::gen::container<std::vector<int>>(rc::gen::inRange(0, 1'000'000));
     RC_ASSERT(one_second(seed, stops) == one_second(seed, {}));
-  });
+  }));
 }
 
 TEST(WheelScriptProperties, AnyGoalIsReachedWithinOneCountByEqualCounts) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const auto unit = [] { return *rc::gen::inRange(-1'000'000, 1'000'000) * 1e-6; };
     const WheelScriptConfig config;
     const Pose2d start{.x_m = 10 * unit(), .y_m = 10 * unit(), .theta_rad = 3 * unit()};
@@ -89,11 +89,11 @@ TEST(WheelScriptProperties, AnyGoalIsReachedWithinOneCountByEqualCounts) {
       RC_ASSERT(left == right || left == -right);
       last = now;
     }
-  });
+  }));
 }
 
 TEST(BeamPacketsProperties, AnyBeamsAreHitOnceAndTheRevolutionComesRound) {
-  rc::check([] {
+  EXPECT_TRUE(rc::check([] {
     const auto bearings_mrad = *rc::gen::unique<std::vector<int>>(rc::gen::inRange(-3141, 3141));
     std::vector<RecordedBeam> beams;
     for (std::size_t i = 0; i < bearings_mrad.size(); ++i) {
@@ -122,7 +122,7 @@ TEST(BeamPacketsProperties, AnyBeamsAreHitOnceAndTheRevolutionComesRound) {
       }
     }
     RC_ASSERT(std::all_of(seen.begin(), seen.end(), [](int times) { return times == 1; }));
-  });
+  }));
 }
 
 }  // namespace

@@ -21,6 +21,8 @@ void GaussNewtonMatcher<Field>::begin(const Field& field, const MatchRequest& re
   report_.pose = request.start;
   report_.covariance = Matrix3f::diagonal(kUnknownVariance, kUnknownVariance, kUnknownVariance);
   done_ = false;
+  damping_ = 1.0F;
+  last_step_ = {};
   if (request.points.size() < static_cast<std::size_t>(config_.min_points)) {
     finish(MatchOutcome::too_few_points);
   }
@@ -42,6 +44,17 @@ bool GaussNewtonMatcher<Field>::enough_points(int inside) {
   const auto all = static_cast<float>(request_.points.size());
   return inside >= config_.min_points &&
          static_cast<float>(inside) >= config_.min_share_in_map * all;
+}
+
+// The field bends at every cell centre: full steps may jump to and fro across a bend for ever. A
+// step that turns back against the last one is halved, and so are all that follow.
+template <LikelihoodField Field>
+void GaussNewtonMatcher<Field>::damp(std::array<float, 3>& step) {
+  const float along = (step[0] * last_step_[0] + step[1] * last_step_[1]) +
+                      length_m_ * length_m_ * step[2] * last_step_[2];
+  if (along < 0.0F) { damping_ *= 0.5F; }
+  for (float& component : step) { component *= damping_; }
+  last_step_ = step;
 }
 
 template <LikelihoodField Field>
@@ -71,6 +84,7 @@ bool GaussNewtonMatcher<Field>::step() {
           : solve(system);
   if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
   shorten(config_.max_step_m, config_.max_step_rad, solution.step);
+  damp(solution.step);
   report_.pose = {report_.pose.x_m + solution.step[0], report_.pose.y_m + solution.step[1],
                   wrap_angle(report_.pose.theta_rad + solution.step[2])};
   ++report_.iterations;

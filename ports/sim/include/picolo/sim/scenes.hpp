@@ -24,7 +24,7 @@ struct Scene {
 };
 
 enum class SceneName : std::uint8_t {
-  office,  ///< 20 x 15 m: seven rooms on both sides of a corridor, furniture; a loop of about 65 m
+  office,  ///< 20 x 15 m: seven rooms on both sides of a corridor, furniture; a loop of about 57 m
   room,    ///< 8 x 6 m, one room with a niche and two boxes
   corridor,  ///< 30 x 2 m, almost featureless: its length is seen only near the ends and at two
              ///< door frames

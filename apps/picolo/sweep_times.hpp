@@ -20,23 +20,28 @@ class SweepTimes {
   void ran(std::size_t task, std::uint32_t cycles) {
     const bool busy = was_busy_ || pipeline_.stage() != PipelineStage::waiting;
     was_busy_ = pipeline_.stage() != PipelineStage::waiting;
-    const auto which = static_cast<ControllerTask>(task);
-    if (!busy || (which != ControllerTask::undistort && which != ControllerTask::match &&
-                  which != ControllerTask::map)) {
-      return;
+    if (!busy) { return; }
+    const double spent_us = 1e-3 * cycles;
+    switch (static_cast<ControllerTask>(task)) {
+      case ControllerTask::match:
+      case ControllerTask::background: match_us_ += spent_us; break;
+      case ControllerTask::undistort:
+      case ControllerTask::map: other_us_ += spent_us; break;
+      case ControllerTask::can:
+      case ControllerTask::serial:
+      case ControllerTask::odometry:
+      case ControllerTask::report: break;
     }
-    total_us_ += 1e-3 * cycles;
-    match_us_ += which == ControllerTask::match ? 1e-3 * cycles : 0.0;
   }
-  void reset() { total_us_ = match_us_ = 0.0; }
-  [[nodiscard]] double total_us() const { return total_us_; }
+  void reset() { match_us_ = other_us_ = 0.0; }
+  [[nodiscard]] double total_us() const { return match_us_ + other_us_; }
   [[nodiscard]] double match_us() const { return match_us_; }
 
  private:
   const Pipeline& pipeline_;
   bool was_busy_ = false;
-  double total_us_ = 0.0;
-  double match_us_ = 0.0;
+  double match_us_ = 0.0;  // searches included
+  double other_us_ = 0.0;
 };
 
 }  // namespace picolo::tool

@@ -12,7 +12,7 @@ namespace picolo::tool {
 
 /// One pose a scan, with the log's stamps; a scan that the controller did not take in time gets the
 /// pose published while the vehicle stood there, and a warning counts them. Times are the
-/// processor time of the tasks undistort, match and map.
+/// processor time of the tasks undistort, match, background and map.
 /// Throws UserError (usage) for an unknown profile, or a log whose scans are not instants with
 /// odometry.
 [[nodiscard]] DriveResult replay_through_wires(const ReplayInput& input,

@@ -107,9 +107,7 @@ std::string check_layer(const SourceFile& file, const std::string& target) {
     return allowed ? "" : "firmware_lib/" + own + " must not see " + seen;
   }
   if (top == "hal") {
-    const bool conformance = own == "conformance" && seen == "conformance";
-    if (seen == "core" || seen == "hal" || conformance) { return ""; }
-    return "hal sees core only, not " + seen;
+    return seen == "core" || seen == "hal" ? "" : "hal sees core only, not " + seen;
   }
   if (top == "drivers") {
     if (seen == "core" || seen == "sensing" || seen == "hal") { return ""; }
@@ -124,8 +122,7 @@ std::string check_layer(const SourceFile& file, const std::string& target) {
     return allowed ? "" : "the controller must not see the port " + seen;
   }
   if (top == "ports") {
-    if (seen == "core" || seen == "sensing" || seen == "hal") { return ""; }
-    if (seen == own || seen == own + "_port") { return ""; }  // `template` is a keyword
+    if (seen == "core" || seen == "sensing" || seen == "hal" || seen == own) { return ""; }
     if (own == "sim" && seen_is_firmware) { return ""; }
     return "port " + own + " sees core, sensing, hal and itself, not " + seen;
   }

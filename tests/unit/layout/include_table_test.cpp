@@ -36,8 +36,6 @@ TEST(IncludeTable, FindsAnIncludeThatPointsUpward) {
             1U);
   EXPECT_EQ(violations_of("firmware_lib/sensing/a.cpp", "\"picolo/hal/clock.hpp\""), 1U);
   EXPECT_EQ(violations_of("hal/include/picolo/hal/a.hpp", "\"picolo/geometry/pose2.hpp\""), 1U);
-  EXPECT_EQ(violations_of("hal/include/picolo/hal/a.hpp", "\"picolo/conformance/checker.hpp\""),
-            1U);
   EXPECT_EQ(violations_of("controller/a.cpp", "\"picolo/sim/world.hpp\""), 1U);
 }
 

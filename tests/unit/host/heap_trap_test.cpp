@@ -32,7 +32,7 @@ TEST(HeapTrap, FiresOnEveryWayToTheHeap) {
   EXPECT_GE(calls_of([] { look_at(std::make_unique<int>(1).get()); }), 2U) << "new and delete";
   EXPECT_GE(calls_of([] { look_at(std::vector<double>(1000).data()); }), 2U);
   EXPECT_GE(calls_of([] {
-              void* memory = std::malloc(16);
+              void* memory = std::calloc(16, 1);
               look_at(memory);
               memory = std::realloc(memory, 4096);
               look_at(memory);

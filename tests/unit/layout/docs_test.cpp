@@ -6,6 +6,8 @@
 
 #include <gtest/gtest.h>
 
+#include "support/paths.hpp"
+
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -45,7 +47,7 @@ std::vector<std::string> local_links(const std::string& page) {
 }
 
 TEST(Readme, ItsProgramIsTheExampleThatTheTestsRun) {
-  const fs::path root{PICOLO_SOURCE_DIR};
+  const fs::path root = test::source_dir();
   const std::string shown = between_markers(
       read(root / "README.md"), "<!-- examples/readme_example/main.cpp -->\n```cpp\n", "```\n");
   const std::string compiled = between_markers(read(root / "examples/readme_example/main.cpp"),
@@ -55,7 +57,7 @@ TEST(Readme, ItsProgramIsTheExampleThatTheTestsRun) {
 }
 
 TEST(Docs, EveryLinkIntoTheTreeLeadsSomewhere) {
-  const fs::path root{PICOLO_SOURCE_DIR};
+  const fs::path root = test::source_dir();
   std::vector<fs::path> pages{root / "README.md", root / "CONTRIBUTING.md", root / "CHANGELOG.md"};
   for (const auto& entry : fs::recursive_directory_iterator{root / "docs"}) {
     if (entry.path().extension() == ".md") { pages.push_back(entry.path()); }

@@ -232,7 +232,7 @@ TEST_F(ImuUndistortion, GivenAGyroWithABiasThenIterationSharpensWhatItBlurs) {
         1e3 * iterated.residual_m, iterated.converged, log.turning.size());
     EXPECT_GT(iterated.believed, 260);
     if (bias_radps > 0.0) {
-      EXPECT_LT(iterated.cells.size(), 0.9 * static_cast<double>(alone.cells.size()));
+      EXPECT_LT(iterated.cells.size(), 0.95 * static_cast<double>(alone.cells.size()));
       EXPECT_LT(iterated.residual_m, alone.residual_m);
     } else {
       EXPECT_LT(iterated.cells.size(), 1.1 * static_cast<double>(alone.cells.size()));

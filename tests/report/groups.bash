@@ -12,6 +12,7 @@ record() { printf '%s\t%s\t%s\t%s\t%s\n' "$1" "$2" "$3" "$4" "${5:-}" >>"$record
 # Builds a preset as a row of the table; a build that fails is a failure, not the end.
 build_row() {
   local start=$SECONDS
+  say "run: building $1"
   if (build "$@"); then
     record "build $1" "$1" built $((SECONDS - start))
   else

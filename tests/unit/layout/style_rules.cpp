@@ -3,7 +3,9 @@
 
 #include "style_rules.hpp"
 
+#include <cctype>
 #include <regex>
+#include <set>
 #include <string>
 
 namespace picolo::layout {
@@ -27,6 +29,58 @@ std::vector<Violation> check_licence(const SourceFile& file, const std::string& 
       file.lines[first + 1] == comment + " SPDX-License-Identifier: Apache-2.0";
   if (present) { return {}; }
   return {{file.path, static_cast<int>(first) + 1, "the two SPDX lines are missing"}};
+}
+
+const std::set<std::string>& poisoned_everywhere() {
+  static const std::set<std::string> names{
+      "new",         "delete",   "malloc",       "calloc",
+      "realloc",     "free",     "throw",        "try",
+      "catch",       "typeid",   "printf",       "snprintf",
+      "sprintf",     "fprintf",  "rand",         "srand",
+      "abort",       "goto",     "setjmp",       "longjmp",
+      "Dynamic",     "MatrixXd", "MatrixXf",     "VectorXd",
+      "VectorXf",    "volatile", "dynamic_cast", "reinterpret_cast",
+      "thread_local"};
+  return names;
+}
+
+const std::set<std::string>& poisoned_of_std() {
+  static const std::set<std::string> names{
+      "vector",   "string",     "map",        "set",    "unordered_map", "list",
+      "deque",    "any",        "mutex",      "thread", "format",        "expected",
+      "function", "shared_ptr", "unique_ptr", "ranges", "sin",           "cos",
+      "tan",      "atan2",      "exp",        "log",    "pow",           "hypot",
+      "floor",    "ceil",       "round",      "lround", "fmod"};
+  return names;
+}
+
+struct Word {
+  std::string name;
+  bool in_std = false;  ///< stands behind std::
+  char before = ' ';    ///< the last character before it that is no blank
+};
+
+bool is_word_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_';
+}
+
+std::vector<Word> words_of(const std::string& line) {
+  std::vector<Word> words;
+  char before = ' ';
+  for (std::size_t i = 0; i < line.size();) {
+    std::size_t end = i;
+    while (end < line.size() && is_word_character(line[end])) { ++end; }
+    if (end == i) {
+      if (line[i] != ' ') { before = line[i]; }
+      ++i;
+      continue;
+    }
+    const bool in_std = i >= 5 && line.compare(i - 5, 5, "std::") == 0;
+    words.push_back({line.substr(i, end - i), in_std, before});
+    before = line[end - 1];
+    i = end;
+  }
+  return words;
 }
 
 }  // namespace
@@ -59,27 +113,17 @@ std::vector<Violation> licence_violations(const SourceFile& file) {
 }
 
 std::vector<Violation> poisoned_names(const SourceFile& file) {
-  static const std::regex poisoned{
-      R"re(\b(?:new|delete|malloc|calloc|realloc|free|throw|try|catch|dynamic_cast|typeid)\b)re"
-      R"re(|\b(?:printf|snprintf|sprintf|fprintf|rand|srand|abort|goto|setjmp|longjmp)\b)re"
-      R"re(|\b(?:Dynamic|MatrixXd|MatrixXf|VectorXd|VectorXf)\b)re"
-      R"re(|\b(?:reinterpret_cast|thread_local|volatile)\b)re"
-      R"re(|\bstd::(?:vector|string|map|set|unordered_map|list|deque|any|expected|format)\b)re"
-      R"re(|\bstd::(?:function|shared_ptr|unique_ptr|mutex|thread|ranges)\b)re"
-      R"re(|\bstd::(?:sin|cos|tan|atan2|exp|log|pow|hypot|floor|ceil|round|lround|fmod)\b)re"};
   std::vector<Violation> violations;
   for (std::size_t i = 0; i < file.code.size(); ++i) {
     const std::string& line = file.code[i];
     if (line.rfind("#include", 0) == 0) { continue; }
-    for (std::sregex_iterator match{line.begin(), line.end(), poisoned}, end; match != end;
-         ++match) {
-      const std::string name = match->str();
-      const std::string before = match->prefix();
-      if (name == "delete" && before.find_last_not_of(' ') != std::string::npos &&
-          before[before.find_last_not_of(' ')] == '=') {
-        continue;  // a deleted function, not the operator
+    for (const Word& word : words_of(line)) {
+      const bool deleted_function = word.name == "delete" && word.before == '=';
+      const bool poisoned = poisoned_everywhere().contains(word.name) ||
+                            (word.in_std && poisoned_of_std().contains(word.name));
+      if (poisoned && !deleted_function) {
+        violations.push_back({file.path, static_cast<int>(i) + 1, word.name + " is poisoned here"});
       }
-      violations.push_back({file.path, static_cast<int>(i) + 1, name + " is poisoned here"});
     }
   }
   return violations;

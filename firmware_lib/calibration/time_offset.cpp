@@ -25,7 +25,8 @@ TimeOffsetCore::TimeOffsetCore(const TimeOffsetConfig& config, std::span<LagSums
     : config_(config), lags_(lags), history_(history), waiting_(waiting) {}
 
 double TimeOffsetCore::lag_s(std::size_t index) const {
-  const double half = static_cast<double>(lags_.size() / 2);
+  const std::size_t middle = lags_.size() / 2;
+  const auto half = static_cast<double>(middle);
   return config_.max_offset_s * (static_cast<double>(index) - half) / half;
 }
 

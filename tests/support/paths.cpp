@@ -5,8 +5,12 @@
 
 namespace picolo::test {
 
-std::filesystem::path source_dir() { return PICOLO_SOURCE_DIR; }
+std::filesystem::path source_dir() {
+  return PICOLO_SOURCE_DIR;
+}
 
-std::filesystem::path data_dir() { return PICOLO_TEST_DATA; }
+std::filesystem::path data_dir() {
+  return PICOLO_TEST_DATA;
+}
 
 }  // namespace picolo::test

@@ -3,14 +3,13 @@
 
 #include <gtest/gtest.h>
 
-#include <rapidcheck.h>
-
 #include <vector>
 
 #include "drives.hpp"
 #include "picolo/core/random.hpp"
 #include "picolo/drivers/canopen/canopen_wheels.hpp"
 #include "support/fake_can_bus.hpp"
+#include "support/property.hpp"
 #include "support/vectors.hpp"
 
 namespace picolo::test {

@@ -4,12 +4,12 @@
 #include "picolo/drivers/canopen/pdo_mapping.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <array>
 #include <vector>
 
 #include "picolo/core/bytes.hpp"
+#include "support/property.hpp"
 #include "support/vectors.hpp"
 
 namespace picolo::test {

@@ -4,12 +4,12 @@
 #include "picolo/drivers/canopen/sync_pairing.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "picolo/core/random.hpp"
+#include "support/property.hpp"
 
 namespace picolo::test {
 namespace {

@@ -4,10 +4,11 @@
 #include "picolo/drivers/canopen/wheel_counter.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <algorithm>
 #include <vector>
+
+#include "support/property.hpp"
 
 namespace picolo::test {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <numeric>
 #include <vector>
 
 #include "support/bytes.hpp"
+#include "support/property.hpp"
 
 namespace picolo::test {
 namespace {

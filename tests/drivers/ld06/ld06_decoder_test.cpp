@@ -5,13 +5,13 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <algorithm>
 #include <vector>
 
 #include "ld06_wire.hpp"
 #include "support/bytes.hpp"
+#include "support/property.hpp"
 
 namespace picolo::test {
 namespace {

@@ -5,12 +5,12 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <array>
 #include <vector>
 
 #include "support/bytes.hpp"
+#include "support/property.hpp"
 #include "support/vectors.hpp"
 #include "witmotion_wire.hpp"
 

@@ -4,12 +4,13 @@
 #include "picolo/calibration/order_statistic.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include "support/property.hpp"
 
 namespace picolo {
 namespace {

@@ -3,7 +3,6 @@
 #include "picolo/host/json.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <bit>
 #include <cmath>
@@ -11,6 +10,8 @@
 #include <cstdlib>
 #include <limits>
 #include <string>
+
+#include "support/property.hpp"
 
 namespace picolo {
 namespace {

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "support/paths.hpp"
+
 namespace picolo::layout {
 namespace {
 

@@ -134,14 +134,13 @@ std::string check_quoted(const SourceFile& file, const std::string& target) {
   if (starts_with_folder(target, "picolo")) {
     const std::string layer = check_layer(file, target);
     if (!layer.empty() || !is_public_header(file)) { return layer; }
-    const std::filesystem::path kernel = test::source_dir() / "firmware_lib" /
-                                         part(target, 1) / "kernel" / target;
+    const std::filesystem::path kernel =
+        test::source_dir() / "firmware_lib" / part(target, 1) / "kernel" / target;
     return std::filesystem::exists(kernel) ? "a public header must not see a kernel" : "";
   }
   if (!is_firmware(file) && !starts_with_folder(file.path, "ports")) { return ""; }
   if (is_public_header(file)) { return "a public header includes public headers only"; }
-  const std::filesystem::path beside =
-      (test::source_dir() / file.path).parent_path() / target;
+  const std::filesystem::path beside = (test::source_dir() / file.path).parent_path() / target;
   return std::filesystem::exists(beside) ? "" : "a private header lies beside its users";
 }
 

@@ -4,13 +4,13 @@
 #include "picolo/solve/streaming_least_squares.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
 
 #include <array>
 #include <limits>
 #include <vector>
 
 #include "random_system.hpp"
+#include "support/property.hpp"
 
 namespace picolo {
 namespace {

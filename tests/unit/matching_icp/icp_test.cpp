@@ -6,8 +6,6 @@
 #include "picolo/matching/icp.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-#include <rapidcheck/gtest.h>
 
 #include <cmath>
 #include <memory>
@@ -15,6 +13,7 @@
 #include "picolo/core/random.hpp"
 #include "picolo/geometry/angle.hpp"
 #include "picolo/matching/point_alignment.hpp"
+#include "support/property.hpp"
 #include "support/walls.hpp"
 
 namespace picolo {

@@ -6,13 +6,12 @@
 #include "picolo/matching/pose_search.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-#include <rapidcheck/gtest.h>
 
 #include <cmath>
 
 #include "picolo/geometry/angle.hpp"
 #include "scene.hpp"
+#include "support/property.hpp"
 
 namespace picolo {
 namespace {

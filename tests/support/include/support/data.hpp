@@ -11,8 +11,8 @@
 #include <filesystem>
 #include <string>
 
-#include "support/paths.hpp"
 #include <string_view>
+#include "support/paths.hpp"
 
 namespace picolo::test {
 

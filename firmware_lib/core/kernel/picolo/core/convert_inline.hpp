@@ -9,6 +9,8 @@
 namespace picolo::inline v0 {
 
 /// Truncates. Precondition: 0 <= value < 2^31; the caller's own comparison has excluded NaN.
-inline std::int32_t truncate_bounded(float value) { return static_cast<std::int32_t>(value); }
+inline std::int32_t truncate_bounded(float value) {
+  return static_cast<std::int32_t>(value);
+}
 
 }  // namespace picolo::inline v0

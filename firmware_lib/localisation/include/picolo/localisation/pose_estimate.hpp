@@ -26,9 +26,9 @@ enum class HealthReason : std::uint8_t {
   too_few_points = 7,
   out_of_map = 8,
   relocalising = 9,
-  configuration = 10,  ///< a part refuses its configuration
-  overrun = 11,        ///< the cycle missed its deadlines
-  sensors_disagree = 12,    ///< wheels, gyro and lidar tell different motions
+  configuration = 10,     ///< a part refuses its configuration
+  overrun = 11,           ///< the cycle missed its deadlines
+  sensors_disagree = 12,  ///< wheels, gyro and lidar tell different motions
 };
 
 [[nodiscard]] const char* to_string(HealthState state);

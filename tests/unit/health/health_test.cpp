@@ -73,6 +73,7 @@ struct Transition {
   Reason reason;
 };
 
+// NOLINTNEXTLINE(readability-identifier-naming): Google Test looks for this name
 void PrintTo(const Transition& transition, std::ostream* out) {
   *out << transition.name;
 }

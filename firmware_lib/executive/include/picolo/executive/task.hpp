@@ -49,7 +49,7 @@ struct ExecutiveConfig {
     return static_cast<std::uint32_t>(major_frame.count() / minor_frame.count());
   }
   [[nodiscard]] constexpr bool valid() const {
-    return minor_frame > Duration{0} && major_frame >= minor_frame &&
+    return minor_frame.count() > 0 && major_frame >= minor_frame &&
            major_frame <= Duration{3'600'000'000} && major_frame.count() % minor_frame.count() == 0;
   }
 };

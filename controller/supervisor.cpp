@@ -11,6 +11,7 @@
 namespace picolo::inline v0 {
 namespace {
 
+constexpr Duration kEventPause = 1s;
 constexpr int kDoubtful = 2;  // steps that a doubtful match raises what any other lowers by one
 
 void count_up(int& streak) {
@@ -74,6 +75,18 @@ void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) 
     doubt_ -= 1;
   }
   doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
+}
+
+void Supervisor::tell(Timestamp now, EventCode code, std::uint32_t count, SweepTrouble& trouble) {
+  // Without wheels every sweep is replaced: that must not push out of the ring why it came so far.
+  if (count == trouble.told || (trouble.any && now - trouble.last < kEventPause)) { return; }
+  trouble = {.told = count, .last = now, .any = true};
+  event(now, code, saturated(count));
+}
+
+void Supervisor::sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped) {
+  tell(now, EventCode::sweep_replaced, replaced, replaced_);
+  tell(now, EventCode::sweep_dropped, dropped, dropped_);
 }
 
 void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {

@@ -245,6 +245,28 @@ TEST_F(SupervisorTest, GivenALongSearchThenDegradedForThatReason) {
   EXPECT_EQ(supervisor.reason(), HealthReason::relocalising);
 }
 
+TEST_F(SupervisorTest, GivenSweepsThatAreReplacedOrDroppedThenOneEventOfAKindASecond) {
+  const auto count_of = [this](EventCode code) {
+    const auto all = codes();
+    return std::count(all.begin(), all.end(), code);
+  };
+  supervisor.sweeps(now, 0, 0);
+  EXPECT_EQ(ring.size(), 1U);
+  supervisor.sweeps(now, 1, 0);
+  EXPECT_EQ(newest().code, EventCode::sweep_replaced);
+  EXPECT_EQ(newest().argument, 1);
+  supervisor.sweeps(now, 1, 3);
+  EXPECT_EQ(newest().code, EventCode::sweep_dropped);
+  EXPECT_EQ(newest().argument, 3);
+  for (std::uint32_t i = 0; i <= 20; ++i) {
+    now += 100ms;
+    supervisor.sweeps(now, 2 + i, 3);
+  }
+  EXPECT_EQ(count_of(EventCode::sweep_replaced), 3) << "at 0, 1 and 2 s";
+  EXPECT_EQ(count_of(EventCode::sweep_dropped), 1);
+  EXPECT_EQ(newest().argument, 21) << "the count at 2 s";
+}
+
 TEST_F(SupervisorTest, GivenAVaguePoseThenLost) {
   track();
   estimate.match_covariance = Matrix3f::diagonal(0.2F, 0.2F, 0.0F);

@@ -200,6 +200,9 @@ class Controller {
   }
 
   void report() {
+    const PipelineCounters& sweeps = pipeline_.counters();
+    supervisor_.sweeps(frame_.start, sweeps.sweeps_replaced + pipeline_.sweep_counters().replaced,
+                       sweeps.sweeps_uncovered + sweeps.sweeps_refused);
     if (!config_.frames_out.enabled) { return; }
     send(encode_pose(config_.frames_out, estimate_));
     send(encode_health(config_.frames_out, estimate_, report_counter_));

@@ -44,6 +44,8 @@ class Supervisor {
     return state() == HealthState::lost || reason() == HealthReason::sensors_disagree;
   }
   void event(Timestamp now, EventCode code, std::int32_t argument);
+  /// Counts of the pipeline; what is new becomes an event, at most one of a kind a second.
+  void sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped);
   /// Judges everything. `estimate` is the last published.
   void update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule);
 
@@ -70,6 +72,15 @@ class Supervisor {
   EventRing& events_;
   std::array<Watch, kDeviceCount> watches_{};
   std::array<std::uint32_t, kControllerTasks> overruns_{};
+  struct SweepTrouble {
+    std::uint32_t told = 0;
+    Timestamp last{};
+    bool any = false;
+  };
+  void tell(Timestamp now, EventCode code, std::uint32_t count, SweepTrouble& trouble);
+
+  SweepTrouble replaced_{};
+  SweepTrouble dropped_{};
   std::uint32_t slipped_ = 0;
   std::uint32_t cycle_troubles_ = 0;  // overruns and slipped frames
   int accepted_streak_ = 0;

@@ -23,7 +23,7 @@ enum class EventCode : std::uint8_t {
   frames_slipped = 4,  ///< argument: how many minor frames were not run
   /// A newer sweep came before the older was matched; argument: sweeps replaced so far.
   sweep_replaced = 5,
-  sweep_dropped = 6,  ///< its poses are not known; argument: sequence number of the sweep
+  sweep_dropped = 6,  ///< it could not be undistorted; argument: sweeps dropped so far
   pose_jump = 7,      ///< a correction moved the published pose; argument: by how many millimetres
   device_lost = 8,    ///< argument: index of the device (0 wheels, 1 lidar, 2 IMU)
   device_back = 9,    ///< argument: as above

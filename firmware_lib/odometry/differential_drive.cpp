@@ -11,7 +11,18 @@ namespace picolo::inline v0 {
 
 static_assert(WheelOdometry<DifferentialDrive>);
 
-DifferentialDrive::DifferentialDrive(const DifferentialDriveConfig& config) : config_(config) {}
+namespace {
+
+Pose2d corrected(const Matrix3d& x, const Pose2d& o) {
+  return {x(0, 0) * o.x_m + x(0, 1) * o.y_m + x(0, 2) * o.theta_rad,
+          x(1, 0) * o.x_m + x(1, 1) * o.y_m + x(1, 2) * o.theta_rad,
+          x(2, 0) * o.x_m + x(2, 1) * o.y_m + x(2, 2) * o.theta_rad};
+}
+
+}  // namespace
+
+DifferentialDrive::DifferentialDrive(const DifferentialDriveConfig& config)
+    : config_(config), corrected_(!(config.correction == Matrix3d::identity())) {}
 
 Result<WheelIncrement> DifferentialDrive::update(const WheelTicks& ticks) {
   if (!has_last_ || ticks.restarted) {
@@ -31,6 +42,7 @@ Result<WheelIncrement> DifferentialDrive::update(const WheelTicks& ticks) {
   WheelIncrement increment{.from = last_.stamp, .to = ticks.stamp};
   increment.from_T_to = exp_se2(
       Tangent2<double>{(left_m + right_m) / 2.0, 0.0, (right_m - left_m) / config_.track_m});
+  if (corrected_) { increment.from_T_to = corrected(config_.correction, increment.from_T_to); }
   increment.standing = left_counts == 0 && right_counts == 0;
   last_ = ticks;
   return increment;

@@ -96,6 +96,9 @@ void add_calibrate(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
 
+  subcommand(*group, "memory", "Bytes of state of every single-pass estimator", o, action,
+             calibrate_memory_command, options);
+
   group->footer(
       "Prints each value with its standard deviation, or why the drive does not determine it (exit "
       "code 1).\n"

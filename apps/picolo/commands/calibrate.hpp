@@ -31,6 +31,7 @@ ExitCode calibrate_joint_command(const CalibrateOptions& options);
 ExitCode calibrate_linear_command(const CalibrateOptions& options);
 ExitCode calibrate_extrinsic_command(const CalibrateOptions& options);
 ExitCode calibrate_time_offset_command(const CalibrateOptions& options);
+ExitCode calibrate_memory_command(const CalibrateOptions& options);
 
 /// refused when there is a refusal, else what the input's end asks for.
 ExitCode end_of_calibration(const Refusal& refusal, const std::string& name,

@@ -63,9 +63,8 @@ void draw_calibration(const std::filesystem::path& folder, const std::string& ti
                       const host::Trajectory& lidar, const host::Trajectory& corrected) {
   host::make_folder(folder);
   host::Picture scatter;
-  scatter.title = title + ": residuals of the displacement between two scans";
-  scatter.note =
-      fmt::format("{} displacements; metres, predicted against measured", residuals.after_m.size());
+  scatter.title = title + ": " + residuals.title;
+  scatter.note = fmt::format("{} {}", residuals.after_m.size(), residuals.note);
   if (!residuals.before_m.empty()) {
     scatter.points.push_back({residuals.before_m, kOdometryGreen, 2.0, "odometry as it was"});
   }

@@ -25,10 +25,12 @@ namespace picolo::tool {
 /// axle, l_diam, r_diam, l_x, l_y, l_theta and the rest of what was found.
 [[nodiscard]] host::Json joint_json(const JointReport& report);
 
-/// A residual before and after: points in metres.
+/// A residual before and after: points in metres, or in what `note` says.
 struct Residuals {
   std::vector<Point2<double>> before_m;
   std::vector<Point2<double>> after_m;
+  std::string title = "residuals of the displacement between two scans";
+  std::string note = "displacements; metres, predicted against measured";
 };
 
 /// residuals and path pictures: odometry green, lidar yellow, corrected red.

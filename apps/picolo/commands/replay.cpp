@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration_file.hpp"
 #include "commands.hpp"
 #include "direct_replay.hpp"
 #include "drive_files.hpp"
@@ -29,6 +30,8 @@ struct Options {
   std::optional<std::string> profile;
   std::optional<float> max_range_m;
   std::vector<double> lidar;
+  std::string calibration;
+  double ticks_per_turn = 0.0;
 };
 
 ReplaySettings settings_from(const Options& options) {
@@ -104,10 +107,15 @@ ExitCode judge(const DriveResult& drive, const DriveErrors& errors, const Option
 }
 
 ExitCode replay(const Options& options) {
-  const ReplaySettings settings = settings_from(options);
+  ReplaySettings settings = settings_from(options);
   host::Diagnostics diagnostics;
   host::LineReader reader{options.log};
-  const host::CarmenLog log = read_carmen(reader, diagnostics);
+  host::CarmenLog log = read_carmen(reader, diagnostics);
+  if (!options.calibration.empty()) {
+    const CalibrationFile calibration = read_calibration(options.calibration);
+    apply_to_odometry(calibration, options.log, options.ticks_per_turn, log);
+    if (!settings.base_T_lidar) { settings.base_T_lidar = calibration.base_T_lidar; }
+  }
   const ReplayInput input = prepare(log, settings, diagnostics);
   host::TumFile reference;
   if (!options.reference.empty()) {
@@ -153,6 +161,15 @@ void add_replay(CLI::App& app, Action& action) {
                    "Pose of the lidar on the vehicle, instead of the log's")
       ->expected(3)
       ->type_name("X Y YAW");
+  command
+      ->add_option("--calibration", options->calibration,
+                   "calibration.json of 'picolo calibrate': its 3x3 matrix corrects the odometry, "
+                   "or its wheels turn the log's TICKS into odometry")
+      ->type_name("FILE");
+  command
+      ->add_option("--ticks-per-turn", options->ticks_per_turn,
+                   "As it was given to 'picolo calibrate'")
+      ->check(CLI::NonNegativeNumber);
   command->footer(
       "Writes to the output folder: trajectory.tum (one pose a scan, stamps of the log),\n"
       "odometry.tum, map.pgm + map.yaml (for ROS's map_server), picture.svg and picture.png.\n"
@@ -163,6 +180,8 @@ void add_replay(CLI::App& app, Action& action) {
       "      prints the error after alignment: \"ape\":{\"rmse\":...} in metres\n"
       "  picolo replay freiburg-101.clf.gz --wire\n"
       "      stop-and-scan in virtual time through drivers and cyclic executive\n"
+      "  picolo calibrate linear intel.clf.gz --out cal\n"
+      "  picolo replay intel.clf.gz --calibration cal/calibration.json\n"
       "  picolo replay hand-held.clf.gz --no-odometry --out /tmp/lidar-only\n"
       "\n"
       "Records: FLASER, ROBOTLASER1 (scans with odometry), or SWEEP with ODOM; other lines are\n"

@@ -57,6 +57,20 @@ TEST(DifferentialDrive, UnequalRadiiCurveAStraight) {
   EXPECT_NEAR(drive.update(ticks(10, 10000, 10000))->from_T_to.theta_rad, 0.01 / 0.5, 1e-12);
 }
 
+TEST(DifferentialDrive, AMatrixMultipliesEachIncrement) {
+  DifferentialDriveConfig config = kTenthOfMillimetre;
+  config.correction = Matrix3d{{1.1, 0.2, 0.3, 0.4, 1.5, 0.6, 0.7, 0.8, 1.9}};
+  DifferentialDrive plain{kTenthOfMillimetre};
+  DifferentialDrive drive{config};
+  ASSERT_FALSE(plain.update(ticks(0, 0, 0)));
+  ASSERT_FALSE(drive.update(ticks(0, 0, 0)));
+  const Pose2d o = plain.update(ticks(10, 7500, 12500))->from_T_to;
+  const Pose2d s = drive.update(ticks(10, 7500, 12500))->from_T_to;
+  EXPECT_NEAR(s.x_m, 1.1 * o.x_m + 0.2 * o.y_m + 0.3 * o.theta_rad, 1e-12);
+  EXPECT_NEAR(s.y_m, 0.4 * o.x_m + 1.5 * o.y_m + 0.6 * o.theta_rad, 1e-12);
+  EXPECT_NEAR(s.theta_rad, 0.7 * o.x_m + 0.8 * o.y_m + 1.9 * o.theta_rad, 1e-12);
+}
+
 TEST(DifferentialDrive, ARestartedCounterIsABaseAndNotAMotion) {
   DifferentialDrive drive{kTenthOfMillimetre};
   ASSERT_FALSE(drive.update(ticks(0, 5000, 5000)));

@@ -8,6 +8,7 @@
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
+#include "picolo/map/map_codec.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -49,6 +50,17 @@ void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base
   accepted_odom_T_base_ = odom_T_base;
 }
 
+Status LocaliserCore::localise_in_restored_map() {
+  if (phase_ != LocaliserPhase::idle) { return Status::invalid_argument; }
+  restore_coarse(fine_, coarse_);
+  for (RollingMapCore* map : {&fine_, &coarse_}) {
+    map->mark_all_stale();
+    map->repair(map->stale_tiles());
+  }
+  localises_only_ = true;
+  return Status::ok;
+}
+
 Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) {
   if (!config_.valid() || phase_ != LocaliserPhase::idle) { return Status::invalid_argument; }
   sweep_ = sweep;
@@ -60,7 +72,7 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     prediction_ =
         accepted_map_T_base_ * (config_.learn_heading ? heading_.corrected(motion) : motion);
   }
-  if (!started_) {
+  if (!started_ && !localises_only_) {
     started_ = true;
     fine_.reset(prediction_.x_m, prediction_.y_m);
     coarse_.reset(prediction_.x_m, prediction_.y_m);
@@ -74,8 +86,11 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     start_map_update();
     return Status::ok;
   }
-  fine_.follow(prediction_.x_m, prediction_.y_m);
-  coarse_.follow(prediction_.x_m, prediction_.y_m);
+  started_ = true;
+  if (!localises_only_) {
+    fine_.follow(prediction_.x_m, prediction_.y_m);
+    coarse_.follow(prediction_.x_m, prediction_.y_m);
+  }
   with_odometry_ = odometry_valid;
   start_match();
   return Status::ok;
@@ -245,7 +260,7 @@ void LocaliserCore::conclude() {
   const double way_m = hypotenuse(since.x_m, since.y_m);
   const bool near = way_m < static_cast<double>(config_.insert_every_m) &&
                     turn < static_cast<double>(config_.insert_every_rad);
-  if (near || map_held_) {
+  if (near || map_held_ || localises_only_) {
     phase_ = LocaliserPhase::idle;
     return;
   }

@@ -42,10 +42,13 @@ RollingMapCore::RollingMapCore(const MapConfig& config, int width, int height,
 
 void RollingMapCore::reset(double centre_x_m, double centre_y_m) {
   const auto cell = static_cast<double>(config_.cell_m);
-  window_.origin_x_cells =
-      floor_to_i32(centre_x_m / cell, -kCellLimit, kCellLimit) - window_.width / 2;
-  window_.origin_y_cells =
-      floor_to_i32(centre_y_m / cell, -kCellLimit, kCellLimit) - window_.height / 2;
+  place(floor_to_i32(centre_x_m / cell, -kCellLimit, kCellLimit) - window_.width / 2,
+        floor_to_i32(centre_y_m / cell, -kCellLimit, kCellLimit) - window_.height / 2);
+}
+
+void RollingMapCore::place(std::int32_t origin_x_cells, std::int32_t origin_y_cells) {
+  window_.origin_x_cells = origin_x_cells;
+  window_.origin_y_cells = origin_y_cells;
   std::fill(storage_.occupancy.begin(), storage_.occupancy.end(), std::int8_t{0});
   std::fill(storage_.field.begin(), storage_.field.end(), kFarAway);
   std::fill(storage_.changed.begin(), storage_.changed.end(), 0U);
@@ -74,6 +77,21 @@ bool RollingMapCore::follow(double x_m, double y_m) {
   window_.origin_x_cells += dx * kTileCells;
   window_.origin_y_cells += dy * kTileCells;
   return true;
+}
+
+void RollingMapCore::restore(int column, int row, std::span<const std::int8_t> log_odds) {
+  if (row < 0 || row >= window_.height) { return; }
+  for (const std::int8_t value : log_odds) {
+    if (column >= 0 && column < window_.width) {
+      storage_.occupancy[index_of(column, row)] = std::clamp(value, config_.low, config_.high);
+    }
+    ++column;
+  }
+}
+
+void RollingMapCore::mark_all_stale() {
+  std::fill(storage_.stale_tiles.begin(), storage_.stale_tiles.end(), std::uint8_t{1});
+  stale_count_ = static_cast<int>(storage_.stale_tiles.size());
 }
 
 DistanceFieldView RollingMapCore::field() const {

@@ -128,6 +128,13 @@ class LocaliserCore {
   /// While held, accepted matches correct the pose but no sweep enters the map: what is seen from a
   /// pose that is in doubt would be believed for ever. The first sweep founds the map all the same.
   void hold_map(bool held) { map_held_ = held; }
+  /// Takes over the map that the caller has restored into `restorable_map`: from now on no sweep
+  /// founds or changes it, and its window stays. Afterwards `set_pose`, then sweeps as ever.
+  /// `invalid_argument`: a sweep is being worked on. Cost: O(cells) and the whole field, as one
+  /// piece: for start-up.
+  Status localise_in_restored_map();
+  [[nodiscard]] RollingMapCore& restorable_map() { return fine_; }
+  [[nodiscard]] bool localises_only() const { return localises_only_; }
   /// Of the last sweep whose match is over.
   [[nodiscard]] const MatchReport& report() const { return report_; }
   [[nodiscard]] bool accepted() const { return accepted_; }
@@ -188,6 +195,7 @@ class LocaliserCore {
   bool accepted_ = false;
   bool adding_hits_ = false;
   bool map_held_ = false;
+  bool localises_only_ = false;
   std::size_t next_point_ = 0;
   LocaliserCounters counters_{};
 };

@@ -75,6 +75,14 @@ class RollingMapCore {
   int repair(int max_tiles);
   [[nodiscard]] int stale_tiles() const { return stale_count_; }
 
+  /// For maps that come from a store or a file: forgets everything and puts the window's lower left
+  /// corner there; then `restore` what is known, then `mark_all_stale`, then `repair`.
+  void place(std::int32_t origin_x_cells, std::int32_t origin_y_cells);
+  /// Sets the log-odds of a row's cells from `column` on, clamped to the configuration's limits;
+  /// the field stays as it is. What lies outside of the window has no effect. Cost: O(cells).
+  void restore(int column, int row, std::span<const std::int8_t> log_odds);
+  void mark_all_stale();
+
   [[nodiscard]] const GridWindow& window() const { return window_; }
   [[nodiscard]] const MapConfig& config() const { return config_; }
   [[nodiscard]] DistanceFieldView field() const;

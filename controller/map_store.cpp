@@ -1,0 +1,206 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "picolo/controller/map_store.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "picolo/core/bytes.hpp"
+#include "picolo/core/crc.hpp"
+
+namespace picolo::inline v0 {
+namespace {
+
+using Piece = std::array<std::uint8_t, MapStore::kPieceSize>;
+static_assert(kMapHeaderSize % 16 == 0 && MapStore::kPieceSize % 16 == 0,
+              "granules are at most 16");
+
+std::size_t half_of(const ByteStoreGeometry& geometry, std::size_t address) {
+  if (geometry.sector == 0 || address >= geometry.size) { return 0; }
+  return (geometry.size - address) / geometry.sector / 2 * geometry.sector;
+}
+
+}  // namespace
+
+MapStore::MapStore(ByteStore& medium, const MapStoreConfig& config)
+    : medium_(medium),
+      address_(config.address),
+      slot_size_(config.slot_size == 0 ? half_of(medium.geometry(), config.address)
+                                       : config.slot_size) {}
+
+std::size_t MapStore::newest() const {
+  const bool first = is_ok(slots_[0].status);
+  const bool second = is_ok(slots_[1].status);
+  if (first && second) {
+    return wrapped_difference(slots_[1].header.sequence, slots_[0].header.sequence) > 0 ? 1 : 0;
+  }
+  return first ? 0 : 1;  // an empty store begins with slot 0
+}
+
+Status MapStore::survey() {
+  if (busy()) { return Status::full; }
+  const ByteStoreGeometry geometry = medium_.geometry();
+  if (geometry.sector == 0 || slot_size_ < kMapHeaderSize + kPieceSize ||
+      slot_size_ % geometry.sector != 0 || address_ % geometry.sector != 0 ||
+      address_ + 2 * slot_size_ > geometry.size) {
+    return Status::invalid_argument;
+  }
+  for (std::size_t slot = 0; slot < 2; ++slot) {
+    std::array<std::uint8_t, kMapHeaderSize> bytes{};
+    const Status read = medium_.read(slot_address(slot), bytes);
+    if (!is_ok(read)) { return read; }
+    slots_[slot].status = decode_map_header(bytes, slots_[slot].header);
+    if (is_ok(slots_[slot].status) &&
+        slots_[slot].header.payload_bytes > slot_size_ - kMapHeaderSize) {
+      slots_[slot].status = Status::corrupt;
+    }
+  }
+  const bool newer =
+      slots_[0].status == Status::unsupported || slots_[1].status == Status::unsupported;
+  return newer ? Status::unsupported : Status::ok;
+}
+
+Status MapStore::abandon(Status status) {
+  phase_ = Phase::idle;
+  return status;
+}
+
+Status MapStore::begin_load(RollingMapCore& map) {
+  const Status status = survey();
+  if (!is_ok(status)) { return status; }
+  if (!is_ok(slots_[newest()].status)) {
+    const bool blank =
+        slots_[0].status == Status::not_ready && slots_[1].status == Status::not_ready;
+    return blank ? Status::not_ready : Status::corrupt;
+  }
+  target_ = &map;
+  second_try_ = false;
+  return start_loading(newest());
+}
+
+Status MapStore::start_loading(std::size_t slot) {
+  slot_ = slot;
+  header_ = slots_[slot].header;
+  at_ = 0;
+  crc_ = 0;
+  const Status status = decoder_.begin(header_, *target_);
+  phase_ = is_ok(status) ? Phase::load : Phase::idle;
+  return status;
+}
+
+Status MapStore::begin_save(const RollingMapCore& map) {
+  const Status status = survey();
+  if (!is_ok(status)) { return status; }
+  const std::size_t newest_slot = newest();
+  header_ = {};
+  header_.sequence =
+      is_ok(slots_[newest_slot].status) ? slots_[newest_slot].header.sequence + 1 : 1;
+  header_.window = map.window();
+  header_.occupied_from = map.config().occupied_from;
+  slot_ = 1 - newest_slot;
+  encoder_.begin(map);
+  at_ = 0;
+  crc_ = 0;
+  phase_ = Phase::erase;
+  return Status::ok;
+}
+
+Status MapStore::step(std::size_t max_pieces) {
+  if (phase_ == Phase::idle) { return Status::ok; }
+  if (phase_ == Phase::erase) {  // the header's sector first: from then on the slot is no map
+    const std::size_t sector = medium_.geometry().sector;
+    const Status status = medium_.erase(slot_address(slot_) + at_ * sector);
+    if (!is_ok(status)) { return abandon(status); }
+    ++at_;
+    if (at_ * sector < slot_size_) { return Status::not_ready; }
+    at_ = 0;
+    phase_ = Phase::write;
+    return Status::not_ready;
+  }
+  for (std::size_t k = 0; k < max_pieces; ++k) {
+    Status status = Status::io_error;
+    switch (phase_) {
+      case Phase::write: status = write_piece(); break;
+      case Phase::verify: status = verify_piece(); break;
+      case Phase::commit: status = commit(); break;
+      case Phase::load: status = load_piece(); break;
+      case Phase::idle:
+      case Phase::erase: break;
+    }
+    if (status != Status::not_ready) { return abandon(status); }
+  }
+  return Status::not_ready;
+}
+
+Status MapStore::write_piece() {
+  if (encoder_.window_moved()) { return Status::out_of_range; }
+  Piece piece{};
+  piece.fill(0xFF);
+  const std::size_t size = encoder_.encode(piece);
+  if (size == 0) {
+    header_.payload_bytes = static_cast<std::uint32_t>(at_);
+    header_.payload_crc = crc_;
+    at_ = 0;
+    crc_ = 0;
+    phase_ = Phase::verify;
+    return Status::not_ready;
+  }
+  if (kMapHeaderSize + at_ + kPieceSize > slot_size_) { return Status::full; }
+  crc_ = crc32(std::span{piece}.first(size), crc_);
+  const Status status = medium_.program(slot_address(slot_) + kMapHeaderSize + at_, piece);
+  at_ += size;
+  return is_ok(status) ? Status::not_ready : status;
+}
+
+Status MapStore::verify_piece() {
+  const std::size_t size = std::min<std::size_t>(kPieceSize, header_.payload_bytes - at_);
+  if (size == 0) {
+    if (crc_ != header_.payload_crc) { return Status::corrupt; }
+    phase_ = Phase::commit;
+    return Status::not_ready;
+  }
+  Piece piece{};
+  const auto bytes = std::span{piece}.first(size);
+  const Status status = medium_.read(slot_address(slot_) + kMapHeaderSize + at_, bytes);
+  if (!is_ok(status)) { return status; }
+  crc_ = crc32(bytes, crc_);
+  at_ += size;
+  return Status::not_ready;
+}
+
+Status MapStore::commit() {
+  std::array<std::uint8_t, kMapHeaderSize> bytes{};
+  encode_map_header(header_, bytes);
+  Status status = medium_.program(slot_address(slot_), bytes);
+  if (!is_ok(status)) { return status; }
+  std::array<std::uint8_t, kMapHeaderSize> back{};
+  status = medium_.read(slot_address(slot_), back);
+  if (!is_ok(status)) { return status; }
+  return back == bytes ? Status::ok : Status::corrupt;
+}
+
+Status MapStore::load_piece() {
+  const std::size_t size = std::min<std::size_t>(kPieceSize, header_.payload_bytes - at_);
+  Status status = Status::ok;
+  if (size > 0) {
+    Piece piece{};
+    const auto bytes = std::span{piece}.first(size);
+    status = medium_.read(slot_address(slot_) + kMapHeaderSize + at_, bytes);
+    if (!is_ok(status)) { return status; }
+    crc_ = crc32(bytes, crc_);
+    at_ += size;
+    status = decoder_.decode(bytes);
+    if (is_ok(status)) { return Status::not_ready; }
+  } else if (decoder_.complete() && crc_ == header_.payload_crc) {
+    return Status::ok;
+  }
+  // Damaged since it was written: the other slot holds the map before.
+  const std::size_t other = 1 - slot_;
+  if (second_try_ || !is_ok(slots_[other].status)) { return Status::corrupt; }
+  second_try_ = true;
+  status = start_loading(other);
+  return is_ok(status) ? Status::not_ready : status;
+}
+
+}  // namespace picolo::inline v0

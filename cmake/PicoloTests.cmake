@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: picolo contributors
 # SPDX-License-Identifier: Apache-2.0
-# picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [TIMEOUT s]): all *.cpp of the calling folder form one
+# picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [PROPERTIES ctest...] [TIMEOUT s]): all *.cpp of the calling folder form one
 # Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels. The first label is
 # the group: unit, property, drivers, ports, integration ...; `slow` and `fuzz` beside it keep a test out of the short run.
 # PICOLO_TEST_DATA is where recordings are looked for; tests that need one say PICOLO_NEED_DATA (tests/support).
@@ -9,7 +9,7 @@ include(GoogleTest)
 set(PICOLO_TEST_DATA "${PROJECT_SOURCE_DIR}/../shared/data" CACHE PATH "Folder with the recorded data sets")
 
 function(picolo_test name)
-  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;DEFINITIONS" ${ARGN})
+  cmake_parse_arguments(ARG "" "TIMEOUT" "LABELS;DEPENDS;DEFINITIONS;PROPERTIES" ${ARGN})
   if(NOT ARG_TIMEOUT)
     set(ARG_TIMEOUT 120)
   endif()
@@ -26,5 +26,5 @@ function(picolo_test name)
   # The library under test keeps its optimisation; tests themselves build a third faster with less.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT})
+    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${ARG_PROPERTIES})
 endfunction()

@@ -18,16 +18,9 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr int kMaxSkipped = 16;  // frames that are not for the caller, in one call
-constexpr Duration kStampSlack = 1ms;
 
 std::int64_t nanoseconds(const timespec& time) {
   return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
-
-std::int64_t read_ns(clockid_t clock) {
-  timespec time{};
-  static_cast<void>(clock_gettime(clock, &time));
-  return nanoseconds(time);
 }
 
 template <typename T>
@@ -68,33 +61,27 @@ bool has_classic_shape(const CanFrame& frame) {
 
 struct SocketCanBus::Datagram {
   can_frame frame{};
-  bool classic = false;  ///< size and flags of a classic frame from somebody else
-  bool stamped = false;
-  std::int64_t realtime_ns = 0;
+  bool classic = false;  ///< has the size of a classic frame
+  bool own = false;
+  KernelStamps stamps{};
 };
 
 Result<CanFrame> SocketCanBus::receive() {
+  if (status_.state == CanState::absent || status_.state == CanState::bus_off) { look_again(); }
   if (!socket_.is_open()) {
     status_.state = CanState::absent;
     return Status::disconnected;
   }
   for (int skipped = 0; skipped < kMaxSkipped; ++skipped) {
-    if (!draining_) { begin_drain(); }
+    if (!stamps_.draining()) { stamps_.begin_drain(realtime_minus_monotonic_ns()); }
     Datagram datagram;
     const Status status = receive_datagram(datagram);
     if (!is_ok(status)) { return status; }
-    if (!datagram.classic) {
-      ++counters_.not_classic;
-      continue;
-    }
-    if ((datagram.frame.can_id & CAN_ERR_FLAG) != 0) {
-      handle_error_frame(datagram);
-      continue;
-    }
+    if (!is_for_caller(datagram)) { continue; }
     CanFrame frame = to_frame(datagram.frame);
-    frame.source = datagram.stamped ? StampSource::kernel : StampSource::read;
-    frame.stamp = datagram.stamped ? map(datagram.realtime_ns, frame.source) : clock_.now();
-    last_stamp_ = frame.stamp;
+    const MappedStamp mapped = stamp(datagram.stamps);
+    frame.stamp = mapped.stamp;
+    frame.source = mapped.source;
     ++status_.received;
     return frame;
   }
@@ -112,52 +99,65 @@ Status SocketCanBus::receive_datagram(Datagram& datagram) {
   message.msg_controllen = control.size();
   const ssize_t size = ::recvmsg(socket_.get(), &message, MSG_DONTWAIT);
   if (size < 0 && (errno == EAGAIN || errno == EINTR)) {
-    end_drain();
+    stamps_.end_drain(clock_.now());
     return status_.state == CanState::absent ? Status::disconnected : Status::not_ready;
   }
   if (size <= 0) { return gone(); }
-  if (status_.state == CanState::absent) { status_.state = CanState::active; }
-  const bool own = (message.msg_flags & MSG_CONFIRM) != 0;
-  datagram.classic = size == static_cast<ssize_t>(sizeof(can_frame)) && !own;
+  datagram.classic = size == static_cast<ssize_t>(sizeof(can_frame));
+  datagram.own = (message.msg_flags & MSG_CONFIRM) != 0;
   std::memcpy(&datagram.frame, &wire, sizeof datagram.frame);
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr;
        header = CMSG_NXTHDR(&message, header)) {
     if (header->cmsg_level != SOL_SOCKET) { continue; }
     if (header->cmsg_type == SCM_TIMESTAMPNS) {
-      datagram.realtime_ns = nanoseconds(control_value<timespec>(header));
-      datagram.stamped = true;
+      datagram.stamps.realtime_ns = nanoseconds(control_value<timespec>(header));
+    }
+    if (header->cmsg_type == SCM_TIMESTAMPING) {
+      const auto stamps = control_value<std::array<timespec, 3>>(header);
+      datagram.stamps.hardware_ns = nanoseconds(stamps[2]);  // [0] is the one above
     }
     if (header->cmsg_type == SO_RXQ_OVFL) { count_overflow(control_value<std::uint32_t>(header)); }
   }
   return Status::ok;
 }
 
-void SocketCanBus::begin_drain() {
-  // Wall time between two readings of the monotonic clock: an interruption in between costs at most
-  // half of itself.
-  const std::int64_t before = read_ns(CLOCK_MONOTONIC);
-  const std::int64_t realtime = read_ns(CLOCK_REALTIME);
-  const std::int64_t after = read_ns(CLOCK_MONOTONIC);
-  realtime_minus_monotonic_ns_ = realtime - before - (after - before) / 2;
-  draining_ = true;
-}
-
-void SocketCanBus::end_drain() {
-  draining_ = false;
-  previous_drain_ = clock_.now();
-}
-
-Timestamp SocketCanBus::map(std::int64_t realtime_ns, StampSource& source) {
-  const Timestamp now = clock_.now();
-  const Timestamp mapped{Duration{(realtime_ns - realtime_minus_monotonic_ns_) / 1000}};
-  const bool too_old = mapped < previous_drain_ - kStampSlack;
-  if (too_old || mapped > now + kStampSlack) {
-    ++counters_.clock_steps;
-    draining_ = false;  // the next frame gets a new pair
-    source = StampSource::read;
-    return now;
+bool SocketCanBus::is_for_caller(const Datagram& datagram) {
+  if (datagram.own) {
+    ++counters_.own_frames;
+    return false;
   }
-  return std::clamp(mapped, std::min(last_stamp_, now), now);
+  if (!datagram.classic) {
+    ++counters_.not_classic;
+    return false;
+  }
+  if ((datagram.frame.can_id & CAN_ERR_FLAG) != 0) {
+    handle_error_frame(datagram);
+    return false;
+  }
+  heard_something();
+  const CanFrame frame = to_frame(datagram.frame);
+  for (std::size_t i = accepted_count_; i < accepted_count_ + ours_count_; ++i) {
+    if (filters_[i].accepts(frame.id, frame.extended) && !frame.remote) {
+      ++counters_.foreign_talkers;
+      return false;
+    }
+  }
+  return true;
+}
+
+/// A frame got through: the bus is there, whatever was last told about it.
+void SocketCanBus::heard_something() {
+  if (status_.state == CanState::bus_off) { ++status_.restarts; }
+  if (status_.state == CanState::absent || status_.state == CanState::bus_off) {
+    status_.state = CanState::active;
+  }
+}
+
+MappedStamp SocketCanBus::stamp(const KernelStamps& stamps) {
+  if (stamps_.wants_offset(stamps, clock_.now())) {
+    stamps_.begin_drain(realtime_minus_monotonic_ns());
+  }
+  return stamps_.map(stamps, clock_.now());
 }
 
 void SocketCanBus::handle_error_frame(const Datagram& datagram) {
@@ -190,6 +190,10 @@ void SocketCanBus::count_overflow(std::uint32_t total) {
 Status SocketCanBus::transmit(const CanFrame& frame) {
   if (!has_classic_shape(frame)) { return Status::invalid_argument; }
   if (!socket_.is_open()) { return Status::disconnected; }
+  if (status_.state == CanState::bus_off) {
+    ++status_.tx_refused;  // the kernel would take it and throw it away
+    return Status::full;
+  }
   const can_frame raw = to_raw(frame);
   const ssize_t size = ::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL);
   if (size == static_cast<ssize_t>(sizeof raw)) {
@@ -198,14 +202,15 @@ Status SocketCanBus::transmit(const CanFrame& frame) {
     return Status::ok;
   }
   if (is_gone(errno)) { return gone(); }
-  ++status_
-        .tx_refused;  // ENOBUFS and EAGAIN, and anything else: never fatal, the caller tries again
+  // ENOBUFS and EAGAIN, and anything else: never fatal, the caller tries again.
+  ++status_.tx_refused;
   return Status::full;
 }
 
 Status SocketCanBus::gone() {
+  if (status_.state != CanState::absent) { next_look_ = clock_.now() + config_.retry_period; }
   status_.state = CanState::absent;
-  end_drain();
+  stamps_.end_drain(clock_.now());
   return Status::disconnected;
 }
 

@@ -99,7 +99,8 @@ run_test() {
       *) die 2 "test does not know '$option'; it takes --full or --campaign" ;;
     esac
   done
-  need_packages "${packages_build[@]}"
+  [[ $(uname -m) == x86_64 ]] || packages_vm=()
+  need_packages "${packages_build[@]}" "${packages_vm[@]}"
   [[ $size != campaign ]] || need_packages "${packages_full[@]}"
   mkdir -p "$root/build"
   : >"$records"

@@ -1,0 +1,102 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+#include "can_node.hpp"
+
+#include <gtest/gtest.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+
+namespace picolo::test {
+namespace {
+
+constexpr int kPatienceMs = 1000;
+
+template <typename Wire>
+bool send_wire(int socket, const Wire& wire) {
+  // Wait for room: a controller's queue is short.
+  pollfd ready{.fd = socket, .events = POLLOUT, .revents = 0};
+  for (int i = 0; i < 100; ++i) {
+    static_cast<void>(::poll(&ready, 1, kPatienceMs));
+    if (::send(socket, &wire, sizeof wire, 0) == static_cast<ssize_t>(sizeof wire)) { return true; }
+    if (errno != ENOBUFS) { return false; }
+    ::usleep(1000);
+  }
+  return false;
+}
+
+}  // namespace
+
+CanNode::CanNode(const std::string& interface)
+    : socket_(::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)) {
+  const int on = 1;
+  static_cast<void>(::setsockopt(socket_.get(), SOL_CAN_RAW, CAN_RAW_FD_FRAMES, &on, sizeof on));
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(::if_nametoindex(interface.c_str()));
+  const void* generic = &address;
+  const bool bound =
+      address.can_ifindex > 0 &&
+      ::bind(socket_.get(), static_cast<const sockaddr*>(generic), sizeof address) == 0;
+  EXPECT_TRUE(bound) << interface;
+}
+
+bool CanNode::send(const can_frame& frame) const {
+  return send_wire(socket_.get(), frame);
+}
+bool CanNode::send(const canfd_frame& frame) const {
+  return send_wire(socket_.get(), frame);
+}
+
+bool CanNode::send(const CanFrame& frame) const {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
+  raw.can_dlc = frame.length;
+  std::copy(frame.data.begin(), frame.data.end(), std::begin(raw.data));
+  return send(raw);
+}
+
+bool CanNode::send_error(std::uint32_t kind, std::uint8_t controller) const {
+  can_frame raw{};
+  raw.can_id = CAN_ERR_FLAG | kind;
+  raw.can_dlc = CAN_ERR_DLC;
+  raw.data[1] = controller;
+  return send(raw);
+}
+
+Result<CanFrame> CanNode::receive() const {
+  pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
+  if (::poll(&ready, 1, kPatienceMs) != 1) { return Status::not_ready; }
+  can_frame raw{};
+  if (::recv(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT) != static_cast<ssize_t>(sizeof raw)) {
+    return Status::not_ready;
+  }
+  CanFrame frame;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
+  frame.length = raw.can_dlc;
+  std::copy(std::begin(raw.data), std::end(raw.data), frame.data.begin());
+  return frame;
+}
+
+Result<CanFrame> next(CanBus& bus) {
+  for (int i = 0; i < kPatienceMs; ++i) {
+    const Result<CanFrame> frame = bus.receive();
+    if (frame.status() != Status::not_ready) { return frame; }
+    ::usleep(1000);
+  }
+  return Status::not_ready;
+}
+
+void settle() {
+  ::usleep(20'000);
+}
+
+}  // namespace picolo::test

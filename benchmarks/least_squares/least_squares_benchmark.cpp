@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "picolo/core/random.hpp"
-#include "picolo/solve/jacobi_svd.hpp"
+#include "picolo/solve/svd_least_squares.hpp"
 #include "picolo/solve/normal_least_squares.hpp"
 #include "picolo/solve/streaming_least_squares.hpp"
 

@@ -8,7 +8,7 @@
 
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
-#include "picolo/solve/jacobi_svd.hpp"
+#include "picolo/geometry/jacobi_svd.hpp"
 #include "picolo/solve/normal_least_squares.hpp"
 
 namespace picolo::inline v0 {

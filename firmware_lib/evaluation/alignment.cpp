@@ -7,11 +7,9 @@
 
 #include "picolo/evaluation/alignment.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
-
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
+#include "picolo/geometry/best_rotation.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -29,19 +27,13 @@ Vector3d mean_position(std::span<const Transform3d> poses) {
   return scaled(total, 1.0 / static_cast<double>(poses.size()));
 }
 
-void add_outer(Matrix3d& m, const Vector3d& r, const Vector3d& e) {
-  const Matrix3d outer{{r.x * e.x, r.x * e.y, r.x * e.z, r.y * e.x, r.y * e.y, r.y * e.z, r.z * e.x,
-                        r.z * e.y, r.z * e.z}};
-  m = sum(m, outer);
-}
-
 Moments moments_of(std::span<const Transform3d> reference, std::span<const Transform3d> estimate) {
   Moments moments{.reference_mean = mean_position(reference),
                   .estimate_mean = mean_position(estimate)};
   for (std::size_t i = 0; i < reference.size(); ++i) {
     const Vector3d r = difference(reference[i].translation_m, moments.reference_mean);
     const Vector3d e = difference(estimate[i].translation_m, moments.estimate_mean);
-    add_outer(moments.cross_covariance, r, e);
+    moments.cross_covariance = sum(moments.cross_covariance, outer(r, e));
     moments.estimate_variance += dot(e, e);
   }
   const double share = 1.0 / static_cast<double>(reference.size());
@@ -69,29 +61,11 @@ Result<Alignment> planar(const Moments& moments) {
 }
 
 Result<Alignment> spatial(const Moments& moments, bool with_scale) {
-  using Matrix = Eigen::Matrix<double, 3, 3>;
-  Matrix c;
-  for (int i = 0; i < 9; ++i) {
-    c(i / 3, i % 3) = moments.cross_covariance.elements[static_cast<std::size_t>(i)];
-  }
-  const Eigen::JacobiSVD<Matrix> svd{c, Eigen::ComputeFullU | Eigen::ComputeFullV};
-  const auto& d = svd.singularValues();
   constexpr double kRankTolerance = 3.0 * 2.220446049250313e-16;
-  if (!(d(1) > kRankTolerance * d(0))) { return Status::degenerate; }
-  const Matrix& u = svd.matrixU();
-  const Matrix& v = svd.matrixV();
-  const double reflection = u.determinant() * v.determinant() < 0.0 ? -1.0 : 1.0;
-  Matrix3d rotation;
-  for (int row = 0; row < 3; ++row) {
-    for (int column = 0; column < 3; ++column) {
-      rotation(static_cast<std::size_t>(row), static_cast<std::size_t>(column)) =
-          (u(row, 0) * v(column, 0) + u(row, 1) * v(column, 1)) +
-          reflection * u(row, 2) * v(column, 2);
-    }
-  }
-  const double scale =
-      with_scale ? ((d(0) + d(1)) + reflection * d(2)) / moments.estimate_variance : 1.0;
-  return around_means(moments, rotation, scale);
+  const Result<BestRotation> best = best_rotation(moments.cross_covariance, kRankTolerance);
+  if (!best) { return best.status(); }
+  const double scale = with_scale ? best->trace / moments.estimate_variance : 1.0;
+  return around_means(moments, best->a_R_b, scale);
 }
 
 }  // namespace

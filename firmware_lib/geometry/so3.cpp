@@ -174,6 +174,12 @@ Matrix3<T> skew(const Vector3<T>& v) {
 }
 
 template <typename T>
+Matrix3<T> outer(const Vector3<T>& a, const Vector3<T>& b) {
+  return {{a.x * b.x, a.x * b.y, a.x * b.z, a.y * b.x, a.y * b.y, a.y * b.z, a.z * b.x, a.z * b.y,
+           a.z * b.z}};
+}
+
+template <typename T>
 Vector3<T> product(const Matrix3<T>& m, const Vector3<T>& v) {
   return {(m(0, 0) * v.x + m(0, 1) * v.y) + m(0, 2) * v.z,
           (m(1, 0) * v.x + m(1, 1) * v.y) + m(1, 2) * v.z,
@@ -211,6 +217,7 @@ Quaternionf to_f32(const Quaterniond& q) {
   template Matrix3<T> inverse_left_jacobian_so3(const Vector3<T>&);           \
   template Matrix3<T> skew(const Vector3<T>&);                                \
   template Vector3<T> product(const Matrix3<T>&, const Vector3<T>&);          \
+  template Matrix3<T> outer(const Vector3<T>&, const Vector3<T>&);            \
   template Quaternion<T> interpolate(const Quaternion<T>&, const Quaternion<T>&, T)
 PICOLO_INSTANTIATE(float);
 PICOLO_INSTANTIATE(double);

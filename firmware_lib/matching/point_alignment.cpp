@@ -3,91 +3,74 @@
 
 #include "picolo/matching/point_alignment.hpp"
 
-#include <Eigen/LU>
-#include <Eigen/SVD>
 #include <cstddef>
 
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
+#include "picolo/geometry/best_rotation.hpp"
+#include "picolo/geometry/so3.hpp"
 
 namespace picolo::inline v0 {
 namespace {
 
-template <int N>
-using Vector = Eigen::Matrix<double, N, 1>;
-template <int N>
-using Matrix = Eigen::Matrix<double, N, N>;
+constexpr double kRankTolerance = 1e-12;
 
-Vector<2> to_vector(const Point2<double>& p) {
-  return {p.x_m, p.y_m};
+Vector3d to_space(const Point2<double>& p) {
+  return {p.x_m, p.y_m, 0.0};
 }
-Vector<3> to_vector(const Vector3d& p) {
-  return {p.x, p.y, p.z};
+Vector3d to_space(const Vector3d& p) {
+  return p;
 }
 
-template <int N>
-struct Fit {
-  Matrix<N> rotation = Matrix<N>::Identity();
-  Vector<N> translation = Vector<N>::Zero();
-  bool determined = false;
+struct Moments {
+  Vector3d a_mean{};
+  Vector3d b_mean{};
+  Matrix3d correlation{};  ///< sum of a b^T of the centred points
 };
 
-// H = sum q q'^T of the centred points of b and a; H = U S V^T; R = V diag(1, .., det(V U^T)) U^T.
-template <int N, typename Point>
-Fit<N> fit(std::span<const Point> a_p, std::span<const Point> b_p) {
+template <typename Point>
+Moments moments_of(std::span<const Point> a_p, std::span<const Point> b_p) {
   const double share = 1.0 / static_cast<double>(a_p.size());
-  Vector<N> a_mean = Vector<N>::Zero();
-  Vector<N> b_mean = Vector<N>::Zero();
+  Moments moments;
   for (std::size_t i = 0; i < a_p.size(); ++i) {
-    a_mean += share * to_vector(a_p[i]);
-    b_mean += share * to_vector(b_p[i]);
+    moments.a_mean = sum(moments.a_mean, scaled(to_space(a_p[i]), share));
+    moments.b_mean = sum(moments.b_mean, scaled(to_space(b_p[i]), share));
   }
-  Matrix<N> h = Matrix<N>::Zero();
   for (std::size_t i = 0; i < a_p.size(); ++i) {
-    const Vector<N> b = to_vector(b_p[i]) - b_mean;
-    const Vector<N> a = to_vector(a_p[i]) - a_mean;
-    h += b.lazyProduct(a.transpose());
+    const Vector3d a = difference(to_space(a_p[i]), moments.a_mean);
+    const Vector3d b = difference(to_space(b_p[i]), moments.b_mean);
+    moments.correlation = sum(moments.correlation, outer(a, b));
   }
-  Fit<N> result;
-  if (!h.allFinite()) { return result; }
-  const Eigen::JacobiSVD<Matrix<N>> svd{h, Eigen::ComputeFullU | Eigen::ComputeFullV};
-  // In the plane one direction gives the rotation, in space two.
-  constexpr double kRankTolerance = 1e-12;
-  const double scale = h.norm();
-  if (!(scale > 0.0) || !(svd.singularValues()(N - 2) > kRankTolerance * scale)) { return result; }
-  Vector<N> signs = Vector<N>::Ones();
-  if (svd.matrixU().determinant() * svd.matrixV().determinant() < 0.0) { signs(N - 1) = -1.0; }
-  result.rotation =
-      svd.matrixV().lazyProduct(signs.asDiagonal() * svd.matrixU().transpose().eval());
-  result.translation = a_mean - result.rotation.lazyProduct(b_mean);
-  result.determined = true;
-  return result;
+  return moments;
 }
 
 }  // namespace
 
+// In the plane the decomposition has the closed form angle = atan2(c10 - c01, c00 + c11).
 Result<Pose2d> align_points(std::span<const Point2<double>> a_p,
                             std::span<const Point2<double>> b_p) {
   if (a_p.size() != b_p.size() || a_p.size() < 2) { return Status::invalid_argument; }
-  const Fit<2> found = fit<2>(a_p, b_p);
-  if (!found.determined) { return Status::degenerate; }
-  return Pose2d{found.translation(0), found.translation(1),
-                arc_tangent2(found.rotation(1, 0), found.rotation(0, 0))};
+  const Moments moments = moments_of(a_p, b_p);
+  const Matrix3d& c = moments.correlation;
+  const double cosine = c(0, 0) + c(1, 1);
+  const double sine = c(1, 0) - c(0, 1);
+  const double length = hypotenuse(cosine, sine);
+  const double scale = hypotenuse(hypotenuse(c(0, 0), c(0, 1)), hypotenuse(c(1, 0), c(1, 1)));
+  if (!(scale > 0.0) || !(length > kRankTolerance * scale)) { return Status::degenerate; }
+  const double co = cosine / length;
+  const double si = sine / length;
+  const Vector3d& b = moments.b_mean;
+  return Pose2d{moments.a_mean.x - (co * b.x - si * b.y), moments.a_mean.y - (si * b.x + co * b.y),
+                arc_tangent2(sine, cosine)};
 }
 
 Result<Transform3d> align_points(std::span<const Vector3d> a_p, std::span<const Vector3d> b_p) {
   if (a_p.size() != b_p.size() || a_p.size() < 3) { return Status::invalid_argument; }
-  const Fit<3> found = fit<3>(a_p, b_p);
-  if (!found.determined) { return Status::degenerate; }
-  Transform3d a_T_b;
-  for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t column = 0; column < 3; ++column) {
-      a_T_b.rotation(row, column) =
-          found.rotation(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column));
-    }
-  }
-  a_T_b.translation_m = {found.translation(0), found.translation(1), found.translation(2)};
-  return a_T_b;
+  const Moments moments = moments_of(a_p, b_p);
+  const Result<BestRotation> best = best_rotation(moments.correlation, kRankTolerance);
+  if (!best) { return best.status(); }
+  const Matrix3d& rotation = best->a_R_b;
+  return Transform3d{rotation, difference(moments.a_mean, product(rotation, moments.b_mean))};
 }
 
 }  // namespace picolo::inline v0

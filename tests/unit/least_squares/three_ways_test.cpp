@@ -9,7 +9,8 @@
 #include <array>
 #include <limits>
 
-#include "picolo/solve/jacobi_svd.hpp"
+#include "picolo/geometry/jacobi_svd.hpp"
+#include "picolo/solve/svd_least_squares.hpp"
 #include "picolo/solve/normal_least_squares.hpp"
 #include "picolo/solve/streaming_least_squares.hpp"
 #include "random_system.hpp"

@@ -71,6 +71,9 @@ template <typename T>
 template <typename T>
 [[nodiscard]] Vector3<T> product(const Matrix3<T>& m, const Vector3<T>& v);
 
+/// a b^T.
+template <typename T>
+[[nodiscard]] Matrix3<T> outer(const Vector3<T>& a, const Vector3<T>& b);
 /// Shortest arc with constant rate (slerp); share 0 gives `from`, 1 gives `to`.
 template <typename T>
 [[nodiscard]] Quaternion<T> interpolate(const Quaternion<T>& from, const Quaternion<T>& to,

@@ -21,10 +21,4 @@ namespace picolo::inline v0 {
 Status jacobi_svd(std::span<double> a, std::size_t rows, std::size_t columns, std::span<double> v,
                   std::span<double> singular_values);
 
-/// Minimum-norm least squares through `jacobi_svd`; destroys `a`. Singular values up to `tolerance`
-/// times the largest count as zero. `b`: rows, `x`: columns, `v`: columns^2 of work. Status as
-/// above.
-Status svd_least_squares(std::span<double> a, std::size_t rows, std::span<const double> b,
-                         std::span<double> x, std::span<double> v, double tolerance = 1e-14);
-
 }  // namespace picolo::inline v0

@@ -97,7 +97,7 @@ void Pipeline::take_sweep() {
 
 void Pipeline::undistort(std::size_t max_returns) {
   const bool may_take = stage_ == PipelineStage::waiting || stage_ == PipelineStage::undistorting;
-  if (may_take && sweeps_.ready()) { take_sweep(); }
+  if (may_take && !paused_ && sweeps_.ready()) { take_sweep(); }
   if (stage_ != PipelineStage::undistorting) { return; }
   const Status status = undistorter_.step(poses_, max_returns);
   if (status == Status::not_ready) { return; }
@@ -105,6 +105,11 @@ void Pipeline::undistort(std::size_t max_returns) {
   if (status != Status::ok) {
     ++counters_.sweeps_uncovered;
     return;
+  }
+  if (pose_was_set_) {
+    const Pose2d odom_T_base = newest_pose({}).odom_T_base;
+    localiser_.set_pose(set_map_T_odom_ * odom_T_base, odom_T_base);
+    pose_was_set_ = false;
   }
   constexpr bool kOdometryValid = true;  // without poses the sweep would not have been undistorted
   if (!is_ok(localiser_.begin(undistorter_.result(), kOdometryValid))) {
@@ -119,10 +124,7 @@ bool Pipeline::match(std::size_t max_point_iterations) {
   const std::size_t points = std::max<std::size_t>(1, undistorter_.result().points.size());
   const std::size_t iterations = std::max<std::size_t>(1, max_point_iterations / points);
   for (std::size_t i = 0; i < iterations && !localiser_.searching(); ++i) {
-    if (localiser_.match_step()) {
-      conclude();
-      return true;
-    }
+    if (localiser_.match_step()) { return conclude(); }
   }
   return false;
 }
@@ -130,15 +132,12 @@ bool Pipeline::match(std::size_t max_point_iterations) {
 bool Pipeline::search(std::size_t max_slices) {
   if (stage_ != PipelineStage::matching) { return false; }
   for (std::size_t i = 0; i < max_slices && localiser_.searching(); ++i) {
-    if (localiser_.match_step()) {
-      conclude();
-      return true;
-    }
+    if (localiser_.match_step()) { return conclude(); }
   }
   return false;
 }
 
-void Pipeline::conclude() {
+bool Pipeline::conclude() {
   const MatchReport& report = localiser_.report();
   verdict_.accepted = localiser_.accepted();
   verdict_.direction_unobservable = report.outcome == MatchOutcome::degenerate;
@@ -150,6 +149,7 @@ void Pipeline::conclude() {
   verdict_.inlier_share = localiser_.counters().sweeps == 1 ? 1.0F : report.inlier_share;
   stage_ = localiser_.phase() == LocaliserPhase::mapping ? PipelineStage::mapping
                                                          : PipelineStage::waiting;
+  return !pose_was_set_;
 }
 
 void Pipeline::map(std::size_t max_rays) {

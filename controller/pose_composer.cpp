@@ -60,6 +60,19 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   ++matches_;
 }
 
+void PoseComposer::set_pose(const Pose2d& map_T_base, const StampedPose& odometry) {
+  map_T_odom_ = map_T_base * inverse(odometry.odom_T_base);
+  reference_ = odometry.stamp;
+  reference_odom_T_base_ = odometry.odom_T_base;
+  reference_map_T_base_ = map_T_base;
+  reference_covariance_ = Matrix3f::diagonal(square(growth_.set_pose_m), square(growth_.set_pose_m),
+                                             square(growth_.set_pose_rad));
+  since_match_ = {};
+  last_jump_ = {};
+  pull_ = {};
+  jumped_ = false;
+}
+
 PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
                                    const Twist2& base_twist) {
   travel(odometry.odom_T_base);

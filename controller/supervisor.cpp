@@ -77,7 +77,7 @@ void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) 
   doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
 }
 
-void Supervisor::tell(Timestamp now, EventCode code, std::uint32_t count, SweepTrouble& trouble) {
+void Supervisor::tell(Timestamp now, EventCode code, std::uint32_t count, Trouble& trouble) {
   // Without wheels every sweep is replaced: that must not push out of the ring why it came so far.
   if (count == trouble.told || (trouble.any && now - trouble.last < kEventPause)) { return; }
   trouble = {.told = count, .last = now, .any = true};
@@ -87,6 +87,15 @@ void Supervisor::tell(Timestamp now, EventCode code, std::uint32_t count, SweepT
 void Supervisor::sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped) {
   tell(now, EventCode::sweep_replaced, replaced, replaced_);
   tell(now, EventCode::sweep_dropped, dropped, dropped_);
+}
+
+void Supervisor::pose_set(Timestamp now) {
+  monitor_.reset();
+  accepted_streak_ = 0;
+  rejected_streak_ = 0;
+  doubt_ = 0;
+  pulled_ = false;
+  event(now, EventCode::pose_set, 0);
 }
 
 void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {

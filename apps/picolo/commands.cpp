@@ -44,6 +44,7 @@ ExitCode run(int argc, char** argv) {
   add_undistort(app, action);
   add_evaluate(app, action);
   add_odometry3d(app, action);
+  add_protocol(app, action);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -36,5 +36,6 @@ void add_undistort(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_odometry3d(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
+void add_protocol(CLI::App& app, Action& action);
 
 }  // namespace picolo::tool

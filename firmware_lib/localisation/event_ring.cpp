@@ -19,6 +19,10 @@ const char* to_string(EventCode code) {
     case EventCode::pose_jump: return "pose_jump";
     case EventCode::device_lost: return "device_lost";
     case EventCode::device_back: return "device_back";
+    case EventCode::pose_set: return "pose_set";
+    case EventCode::mode_set: return "mode_set";
+    case EventCode::command_refused: return "command_refused";
+    case EventCode::impersonated: return "impersonated";
   }
   return "unknown";
 }

@@ -120,7 +120,7 @@ TEST(Faults, GivenTheWholeBusGoneThenLostAndBack) {
   drive.until(12s);
   EXPECT_EQ(drive.state(), kLost);
   EXPECT_FALSE(drive.controller().supervisor().connected(DeviceIndex::wheels));
-  EXPECT_GT(drive.controller().counters().frames_refused, 0U);
+  EXPECT_GT(drive.controller().reporter().refused(), 0U);
   drive.until(18s);
   EXPECT_TRUE(drive.controller().supervisor().connected(DeviceIndex::wheels));
   EXPECT_EQ(drive.state(), kTracking);

@@ -121,18 +121,15 @@ TEST(Controller, PoseAndHealthAreToldOnTheBusEveryFifthFrame) {
   drive.robot().simulation().can().attach(&listener);
   drive.until(4s);
   ASSERT_EQ(listener.frames.size(), 80U);
-  const CanFrame& pose = listener.frames[78];
-  const CanFrame& health = listener.frames[79];
-  ASSERT_EQ(pose.id, 0x110U);
-  ASSERT_EQ(health.id, 0x111U);
-  const std::int32_t x_mm =
-      static_cast<std::int32_t>(
-          static_cast<std::uint32_t>(pose.data[0] | (pose.data[1] << 8) | (pose.data[2] << 16))
-          << 8) >>
-      8;
-  EXPECT_NEAR(x_mm, drive.controller().estimate().map_T_base.x_m * 1000.0, 1.0);
-  EXPECT_EQ(health.data[1], static_cast<std::uint8_t>(HealthState::tracking));
-  EXPECT_EQ(static_cast<std::uint8_t>(health.data[0] - listener.frames[1].data[0]), 39);
+  const auto first = decode(can_table::kHealth, 0x110, listener.frames[1]);
+  const auto pose = decode(can_table::kPose, 0x110, listener.frames[78]);
+  const auto health = decode(can_table::kHealth, 0x110, listener.frames[79]);
+  ASSERT_TRUE(first && pose && health);
+  EXPECT_NEAR(to_value(can_table::kPoseSignals[0], pose->raw[0]),
+              drive.controller().estimate().map_T_base.x_m, 0.0011);
+  EXPECT_EQ(health->raw[0], static_cast<int>(HealthState::tracking));
+  EXPECT_EQ((health->counter - first->counter + 15) % 15, 39 % 15);
+  EXPECT_EQ(pose->counter, health->counter) << "one counter for what belongs together";
 }
 
 TEST(Controller, GivenAConfigurationThatContradictsItselfThenFaultIsPublishedAndNothingRuns) {

@@ -10,11 +10,13 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "picolo/controller/command_desk.hpp"
 #include "picolo/controller/controller_config.hpp"
 #include "picolo/controller/devices.hpp"
-#include "picolo/controller/frames_out.hpp"
 #include "picolo/controller/pipeline.hpp"
 #include "picolo/controller/pose_composer.hpp"
+#include "picolo/controller/reporter.hpp"
+#include "picolo/controller/services.hpp"
 #include "picolo/controller/supervisor.hpp"
 #include "picolo/core/fixed_vector.hpp"
 #include "picolo/core/ring_buffer.hpp"
@@ -32,9 +34,6 @@ struct ControllerCounters {
   std::uint32_t ticks_lost = 0;      ///< more than kMaxTicks in one frame
   std::uint32_t readings = 0;        ///< beams of the lidar
   std::uint32_t imu_samples = 0;
-  std::uint32_t frames_sent = 0;
-  /// The bus had no room; they are not repeated, the next ones are newer.
-  std::uint32_t frames_refused = 0;
 };
 
 /// All memory inside (see the profile), none from the heap; keep it in static storage. `start`,
@@ -49,9 +48,9 @@ class Controller {
   static constexpr std::size_t kSerialSlices = 4;  ///< of the byte bound: keeps the buffers small
 
   /// Everything referred to outlives the controller. `events` may lie in memory that survives a
-  /// reset.
+  /// reset. `services`: what commands may ask for beyond the controller itself.
   Controller(const Board& board, Wheels& wheels, Lidar& lidar, Imu& imu, EventRing& events,
-             const ControllerConfig& config)
+             const ControllerConfig& config, const ControllerServices& services = {})
       : config_(config.valid() ? config : ControllerConfig{}),
         configuration_valid_(config.valid()),
         board_(board),
@@ -63,6 +62,8 @@ class Controller {
         pipeline_(config_, {first_sweep_, second_sweep_, x_m_, y_m_}, localiser_.core()),
         composer_(config_),
         supervisor_(config_.health, config_.trust, events),
+        reporter_(config_.frames_out, board.can),
+        desk_(config_.frames_out, services, pipeline_, composer_, supervisor_, reporter_),
         executive_(config_.cycle, controller_tasks(config_.work, config_.budgets), board.clock,
                    board.cycle_counter, board.watchdog) {}
   Controller(const Controller&) = delete;
@@ -99,6 +100,8 @@ class Controller {
   [[nodiscard]] const Pipeline& pipeline() const { return pipeline_; }
   [[nodiscard]] const Supervisor& supervisor() const { return supervisor_; }
   [[nodiscard]] const ControllerCounters& counters() const { return counters_; }
+  [[nodiscard]] const Reporter& reporter() const { return reporter_; }
+  [[nodiscard]] const CommandDesk& commands() const { return desk_; }
   [[nodiscard]] const ControllerConfig& config() const { return config_; }
 
   /// For the executive: does the work of one task. Always passes its checkpoint; a device that is
@@ -112,7 +115,10 @@ class Controller {
       case ControllerTask::undistort: pipeline_.undistort(work_bound); break;
       case ControllerTask::match: judge(pipeline_.match(work_bound)); break;
       case ControllerTask::map: pipeline_.map(work_bound); break;
-      case ControllerTask::background: judge(pipeline_.search(work_bound)); break;
+      case ControllerTask::background:
+        judge(pipeline_.search(work_bound));
+        desk_.work(frame.start);
+        break;
       case ControllerTask::report: report(); break;
     }
     return true;
@@ -127,7 +133,7 @@ class Controller {
       if (!received) { break; }
       ++counters_.can_frames;
       if (!wheels_.consume(*received)) {
-        ++counters_.foreign_frames;
+        if (!desk_.consume(*received, frame_.start)) { ++counters_.foreign_frames; }
         continue;
       }
       const Result<WheelTicks> ticks = wheels_.take();
@@ -141,6 +147,7 @@ class Controller {
     supervisor_.heard(DeviceIndex::wheels, ticks.stamp);
     ++counters_.ticks;
     if (!ticks_.push_back(ticks)) { ++counters_.ticks_lost; }
+    if (calibration() != nullptr) { calibration()->add(ticks); }
   }
 
   void drain_serial(std::uint32_t max_bytes) {
@@ -164,6 +171,7 @@ class Controller {
     for (std::size_t i = 0; i < count.value_or(0); ++i) {
       supervisor_.heard(DeviceIndex::imu, samples_[i].stamp);
       pipeline_.add(samples_[i]);
+      if (calibration() != nullptr) { calibration()->add(samples_[i]); }
     }
     counters_.imu_samples += static_cast<std::uint32_t>(count.value_or(0));
     return static_cast<bool>(count);
@@ -176,7 +184,7 @@ class Controller {
     supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
     supervisor_.turns(pipeline_.turns_disagree());
     supervisor_.searching(pipeline_.searching());
-    pipeline_.hold_map(supervisor_.doubts_pose());
+    pipeline_.hold_map(supervisor_.doubts_pose() || desk_.mode() == OperatingMode::localising);
     publish(frame_.start);
   }
 
@@ -193,6 +201,7 @@ class Controller {
   void judge(bool match_ended) {
     if (!match_ended) { return; }
     const MatchVerdict& verdict = pipeline_.verdict();
+    if (calibration() != nullptr) { calibration()->add(verdict); }
     if (verdict.accepted) { composer_.correct(verdict, pipeline_.newest_pose(frame_.start)); }
     const bool jumped = verdict.accepted && composer_.jumped();
     supervisor_.matched(verdict, jumped, composer_.pulled());
@@ -203,15 +212,49 @@ class Controller {
     const PipelineCounters& sweeps = pipeline_.counters();
     supervisor_.sweeps(frame_.start, sweeps.sweeps_replaced + pipeline_.sweep_counters().replaced,
                        sweeps.sweeps_uncovered + sweeps.sweeps_refused);
-    if (!config_.frames_out.enabled) { return; }
-    send(encode_pose(config_.frames_out, estimate_));
-    send(encode_health(config_.frames_out, estimate_, report_counter_));
-    ++report_counter_;
+    reporter_.report({.now = frame_.start,
+                      .estimate = estimate_,
+                      .mode = desk_.mode(),
+                      .events = supervisor_.events(),
+                      .counters = counter_values(),
+                      .calibration = calibration()});
   }
 
-  void send(const CanFrame& frame) {
-    const bool taken = is_ok(board_.can.transmit(frame));
-    ++(taken ? counters_.frames_sent : counters_.frames_refused);
+  [[nodiscard]] CalibrationService* calibration() const { return desk_.services().calibration; }
+
+  // In the order of CounterIndex.
+  [[nodiscard]] CounterValues counter_values() const {
+    const PipelineCounters& sweeps = pipeline_.counters();
+    const LocaliserCounters& matches = pipeline_.localiser().counters();
+    const CommandCounters& commands = desk_.counters();
+    const CanStatus bus = board_.can.status();
+    return {counters_.can_frames,
+            counters_.foreign_frames,
+            counters_.ticks,
+            counters_.ticks_lost,
+            counters_.readings,
+            counters_.imu_samples,
+            reporter_.sent(),
+            reporter_.refused(),
+            desk_.impersonated(),
+            sweeps.sweeps_taken,
+            sweeps.sweeps_replaced + pipeline_.sweep_counters().replaced,
+            sweeps.sweeps_uncovered,
+            sweeps.sweeps_refused,
+            matches.matched,
+            matches.rejected,
+            matches.searched,
+            schedule().overruns(),
+            schedule().frame_counters().slipped,
+            supervisor_.events().total(),
+            commands.accepted,
+            commands.corrupt,
+            commands.repeated,
+            commands.stale,
+            commands.refused,
+            bus.rx_lost,
+            bus.error_frames,
+            bus.restarts};
   }
 
   ControllerConfig config_;  // the default one when the given one is refused
@@ -232,12 +275,13 @@ class Controller {
   Pipeline pipeline_;
   PoseComposer composer_;
   Supervisor supervisor_;
+  Reporter reporter_;
+  CommandDesk desk_;
   Executive<Clock, CycleCounter, Watchdog, kControllerTasks> executive_;
   FrameInfo frame_{};
   PoseEstimate estimate_{};
   LatestValue<PoseEstimate> published_{};
   ControllerCounters counters_{};
-  std::uint8_t report_counter_ = 0;
 };
 
 }  // namespace picolo::inline v0

@@ -58,9 +58,12 @@ struct CovarianceGrowth {
   float heading_per_rad = 0.02F;
   float drift_per_m = 0.005F;  ///< since the start
   float drift_heading_per_m_rad = 0.001F;
+  float set_pose_m = 0.1F;  ///< of a pose that a command sets, along each axis
+  float set_pose_rad = 0.05F;
   [[nodiscard]] constexpr bool valid() const {
     return position_per_m >= 0.0F && position_per_rad_m >= 0.0F && heading_per_m_rad >= 0.0F &&
-           heading_per_rad >= 0.0F && drift_per_m >= 0.0F && drift_heading_per_m_rad >= 0.0F;
+           heading_per_rad >= 0.0F && drift_per_m >= 0.0F && drift_heading_per_m_rad >= 0.0F &&
+           set_pose_m >= 0.0F && set_pose_rad >= 0.0F;
   }
 };
 
@@ -85,14 +88,12 @@ struct MatchTrust {
   }
 };
 
-/// Identifiers of the controller's own frames; 0x101 to 0x17F are free in every CANopen network.
+/// Identifiers of the controller's own frames (16 from the base on) and of the commands to it (the
+/// next 16); 0x101 to 0x17F are free in every CANopen network.
 struct FramesOutConfig {
-  bool enabled = true;
-  std::uint16_t pose_id = 0x110;
-  std::uint16_t health_id = 0x111;
-  [[nodiscard]] constexpr bool valid() const {
-    return pose_id <= 0x7FF && health_id <= 0x7FF && pose_id != health_id;
-  }
+  bool enabled = true;  ///< false: neither frames nor commands
+  std::uint16_t base_id = 0x110;
+  [[nodiscard]] constexpr bool valid() const { return base_id % 16 == 0 && base_id <= 0x7E0; }
 };
 
 struct ControllerConfig {

@@ -82,6 +82,18 @@ class Pipeline {
   [[nodiscard]] bool searching() const { return localiser_.searching(); }
   /// See LocaliserCore.
   void hold_map(bool held) { localiser_.hold_map(held); }
+  /// From now on the pose is map_T_odom * odometry. The end of a match that is under way is not
+  /// told any more; the next match starts from here.
+  void set_pose(const Pose2d& map_T_odom) {
+    set_map_T_odom_ = map_T_odom;
+    pose_was_set_ = true;
+  }
+  /// While paused, no new sweep is taken.
+  void pause(bool paused) { paused_ = paused; }
+  /// Paused, and nothing is under way.
+  [[nodiscard]] bool idle() const { return paused_ && stage_ == PipelineStage::waiting; }
+  /// For work on the map. Precondition: idle().
+  [[nodiscard]] LocaliserCore& idle_localiser() { return localiser_; }
   /// At most `max_rays` rays into the map.
   void map(std::size_t max_rays);
 
@@ -103,7 +115,8 @@ class Pipeline {
  private:
   void bridge(Timestamp to);
   void take_sweep();
-  void conclude();
+  /// True when the end of the match is to be told.
+  [[nodiscard]] bool conclude();
 
   UndistortConfig undistort_;
   Duration max_bridge_;
@@ -121,6 +134,9 @@ class Pipeline {
   Timestamp last_sweep_end_{};
   Timestamp last_reading_{};
   PipelineStage stage_ = PipelineStage::waiting;
+  Pose2d set_map_T_odom_{};
+  bool pose_was_set_ = false;
+  bool paused_ = false;
   PipelineCounters counters_{};
 };
 

@@ -23,6 +23,8 @@ class PoseComposer {
   void start(Timestamp now) { reference_ = now; }
   /// An accepted match. `odometry`: the newest pose.
   void correct(const MatchVerdict& verdict, const StampedPose& odometry);
+  /// Somebody who knows says where the vehicle is; `odometry`: the newest pose.
+  void set_pose(const Pose2d& map_T_base, const StampedPose& odometry);
   /// The estimate for `now`: odometry carried on with its last twist, for at most max_prediction;
   /// the stamp says how far. State and reason are the caller's to fill in. Cost: three sin_cos.
   [[nodiscard]] PoseEstimate compose(Timestamp now, const StampedPose& odometry,

@@ -46,6 +46,16 @@ class Supervisor {
   void event(Timestamp now, EventCode code, std::int32_t argument);
   /// Counts of the pipeline; what is new becomes an event, at most one of a kind a second.
   void sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped);
+  /// A command has set the pose: trust begins anew.
+  void pose_set(Timestamp now);
+  /// Counts of refused commands and of frames of somebody else with our identifiers; what is new
+  /// becomes an event, at most one of a kind a second.
+  void command_refused(Timestamp now, std::uint32_t count) {
+    tell(now, EventCode::command_refused, count, refused_);
+  }
+  void impersonated(Timestamp now, std::uint32_t count) {
+    tell(now, EventCode::impersonated, count, impersonated_);
+  }
   /// Judges everything. `estimate` is the last published.
   void update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule);
 
@@ -72,15 +82,17 @@ class Supervisor {
   EventRing& events_;
   std::array<Watch, kDeviceCount> watches_{};
   std::array<std::uint32_t, kControllerTasks> overruns_{};
-  struct SweepTrouble {
+  struct Trouble {
     std::uint32_t told = 0;
     Timestamp last{};
     bool any = false;
   };
-  void tell(Timestamp now, EventCode code, std::uint32_t count, SweepTrouble& trouble);
+  void tell(Timestamp now, EventCode code, std::uint32_t count, Trouble& trouble);
 
-  SweepTrouble replaced_{};
-  SweepTrouble dropped_{};
+  Trouble replaced_{};
+  Trouble dropped_{};
+  Trouble refused_{};
+  Trouble impersonated_{};
   std::uint32_t slipped_ = 0;
   std::uint32_t cycle_troubles_ = 0;  // overruns and slipped frames
   int accepted_streak_ = 0;

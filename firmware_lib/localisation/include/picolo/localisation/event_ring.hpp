@@ -27,6 +27,12 @@ enum class EventCode : std::uint8_t {
   pose_jump = 7,      ///< a correction moved the published pose; argument: by how many millimetres
   device_lost = 8,    ///< argument: index of the device (0 wheels, 1 lidar, 2 IMU)
   device_back = 9,    ///< argument: as above
+  pose_set = 10,      ///< by a command
+  mode_set = 11,      ///< by a command; argument: the mode
+  /// A command was damaged, repeated or stale; argument: how many so far.
+  command_refused = 12,
+  /// Somebody else sends with our identifiers; argument: frames so far.
+  impersonated = 13,
 };
 
 [[nodiscard]] const char* to_string(EventCode code);

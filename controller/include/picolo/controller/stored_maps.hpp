@@ -1,0 +1,30 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// The commands' maps in a byte store.
+#pragma once
+
+#include <cstdint>
+
+#include "picolo/controller/map_store.hpp"
+#include "picolo/controller/services.hpp"
+
+namespace picolo::inline v0 {
+
+/// Slot 0 is the one map that a MapStore keeps. A loaded map is localised in and not changed any
+/// more; a load that fails half-way leaves an empty one. Context: cycle only.
+class StoredMaps final : public MapService {
+ public:
+  explicit StoredMaps(ByteStore& medium, const MapStoreConfig& config = {})
+      : store_(medium, config) {}
+
+  Status begin_save(std::uint8_t slot, LocaliserCore& localiser) override;
+  Status begin_load(std::uint8_t slot, LocaliserCore& localiser) override;
+  Status step(LocaliserCore& localiser) override;
+
+ private:
+  MapStore store_;
+  bool loading_ = false;
+};
+
+}  // namespace picolo::inline v0

@@ -32,28 +32,6 @@ Status Ld06Decoder::push(std::uint8_t byte) {
   return Status::ok;
 }
 
-bool Ld06Readings::passes_zero(std::uint32_t angle) {
-  const std::uint32_t before = last_angle_;
-  last_angle_ = angle;
-  if (!has_last_) {
-    has_last_ = true;
-    since_start_ =
-        static_cast<std::int32_t>(kHalfTurn);  // the first passage counts, however soon it comes
-    return false;
-  }
-  const std::uint32_t forward = (angle + kFullTurn - before) % kFullTurn;
-  const bool went_back = forward > kHalfTurn;
-  since_start_ +=
-      static_cast<std::int32_t>(forward) - (went_back ? static_cast<std::int32_t>(kFullTurn) : 0);
-  // Packets overlap by a fraction of a degree when the motor's speed varies: around zero that must
-  // not start two sweeps.
-  if (went_back || angle >= before || since_start_ < static_cast<std::int32_t>(kHalfTurn)) {
-    return false;
-  }
-  since_start_ = static_cast<std::int32_t>(angle);
-  return true;
-}
-
 void Ld06Readings::convert(const Ld06Packet& packet,
                            std::span<RangeReading, kLd06PointsPerPacket> readings) {
   const std::uint32_t start = packet.start_cdeg % kLd06FullTurnCdeg * kIntervals;
@@ -65,7 +43,7 @@ void Ld06Readings::convert(const Ld06Packet& packet,
         point.intensity < config_.min_intensity && point.distance_mm > config_.weak_beyond_mm;
     readings[i].range_m = weak ? 0.0F : static_cast<float>(point.distance_mm) / 1000.0F;
     readings[i].bearing_rad = bearing_rad(angle);
-    readings[i].starts_sweep = passes_zero(angle);
+    readings[i].starts_sweep = cutter_.passes_zero(angle);
   }
 }
 

@@ -154,6 +154,16 @@ class Controller {
     const std::size_t slice = std::max<std::size_t>(1, max_bytes / kSerialSlices);
     for (std::size_t i = 0; i < kSerialSlices && drain_lidar(slice); ++i) {}
     for (std::size_t i = 0; i < kSerialSlices && drain_imu(slice); ++i) {}
+    serve(lidar_);
+    serve(imu_);
+  }
+
+  // Devices that must be asked for their data are given the time to ask.
+  template <typename Device>
+  void serve(Device& device) {
+    if constexpr (requires { device.service(frame_.start); }) {
+      (void)device.service(frame_.start);  // what the line refused is tried again
+    }
   }
 
   // True while the line had something to say.

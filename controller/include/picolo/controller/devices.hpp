@@ -39,7 +39,8 @@ concept WheelDevice = requires(W& wheels, const CanFrame& frame, Timestamp now) 
 };
 
 /// Reads at most `max_bytes` and writes the samples that they complete. `not_ready`: none.
-/// `disconnected`: the line is gone.
+/// `disconnected`: the line is gone. Lidars and IMUs that must be asked also have `service(now)`,
+/// which is called every cycle.
 template <typename L>
 concept LidarDevice = requires(L& lidar, std::size_t max_bytes, std::span<RangeReading> readings) {
   { lidar.poll(max_bytes, readings) } -> std::same_as<Result<std::size_t>>;

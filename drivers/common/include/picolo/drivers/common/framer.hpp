@@ -37,6 +37,13 @@ concept FrameFormat = requires(const F& format, ByteView bytes) {
   { format.check(bytes) } -> std::same_as<FrameCheck>;
 };
 
+/// Formats whose frames tell their own length say `kVariableSize = true`: a damaged length must not
+/// hold back the good frames behind it.
+template <typename F>
+concept VariableFrameFormat = FrameFormat<F> && requires {
+  requires F::kVariableSize;
+};
+
 /// Never reset.
 struct FramerCounters {
   std::uint32_t frames = 0;
@@ -69,10 +76,16 @@ class Framer {
       const FrameCheck found = format_.check({window_.data() + start, size_ - start});
       if (found.verdict == FrameVerdict::complete) {
         frame_size_ = found.size;
+        last_size_ = found.size;
         ++counters_.frames;
         break;
       }
-      if (found.verdict == FrameVerdict::incomplete && size_ - start < Format::kMaxFrame) { break; }
+      if (found.verdict == FrameVerdict::incomplete && size_ - start < Format::kMaxFrame) {
+        if (!rival_is_complete(start)) { break; }
+        counters_.skipped_bytes += static_cast<std::uint32_t>(rival_ - start);
+        start = rival_;
+        continue;
+      }
       count(found.verdict);
       ++counters_.skipped_bytes;
       ++start;
@@ -93,9 +106,28 @@ class Framer {
   constexpr void reset() {
     size_ = 0;
     frame_size_ = 0;
+    rival_ = 0;
   }
+  /// What waits and what follows is of another format.
+  constexpr void set_format(const Format& format) { format_ = format; }
 
  private:
+  /// A candidate that waits for more bytes than the last frame had may be one whose length was
+  /// damaged: true when a whole frame stands behind it. Cost: O(1) a byte, and what was skipped.
+  constexpr bool rival_is_complete(std::size_t start) {
+    if constexpr (VariableFrameFormat<Format>) {
+      if (last_size_ == 0 || size_ - start <= last_size_) { return false; }
+      rival_ = std::max(rival_, start + 1);
+      for (; rival_ < size_; ++rival_) {
+        const FrameVerdict verdict =
+            format_.check({window_.data() + rival_, size_ - rival_}).verdict;
+        if (verdict == FrameVerdict::complete) { return true; }
+        if (verdict == FrameVerdict::incomplete) { return false; }
+      }
+    }
+    return false;
+  }
+
   constexpr void count(FrameVerdict verdict) {
     if (verdict == FrameVerdict::checksum) { ++counters_.bad_checksums; }
     if (verdict == FrameVerdict::implausible) { ++counters_.implausible; }
@@ -105,12 +137,15 @@ class Framer {
     if (bytes == 0) { return; }
     std::copy(window_.data() + bytes, window_.data() + size_, window_.data());
     size_ -= bytes;
+    rival_ = 0;
   }
 
   Format format_;
   std::array<std::uint8_t, Format::kMaxFrame> window_{};
   std::size_t size_ = 0;
   std::size_t frame_size_ = 0;
+  std::size_t last_size_ = 0;  ///< of the frame before
+  std::size_t rival_ = 0;      ///< where in the window the next candidate stands
   FramerCounters counters_{};
 };
 

@@ -15,6 +15,17 @@
 
 namespace picolo::inline v0 {
 
+/// When one byte of a stream had arrived.
+struct ByteTime {
+  Timestamp arrived{};
+  StampSource source = StampSource::read;
+  std::uint32_t baud = 1;
+  /// When the first bit of the last `bytes` bytes, this one included, went onto the wire.
+  [[nodiscard]] constexpr Timestamp first_bit(std::size_t bytes) const {
+    return arrived - transmission_time(bytes, baud);
+  }
+};
+
 /// Cost: one `read` of at most 64 bytes. Context: one at a time.
 class SerialChunk {
  public:
@@ -38,6 +49,12 @@ class SerialChunk {
   [[nodiscard]] std::size_t size() const { return size_; }
   [[nodiscard]] std::uint8_t operator[](std::size_t index) const { return bytes_[index]; }
   [[nodiscard]] StampSource source() const { return source_; }
+
+  [[nodiscard]] ByteTime time_of(std::size_t index) const {
+    return {.arrived = stamp_ - transmission_time(size_ - 1 - index, baud_),
+            .source = source_,
+            .baud = baud_};
+  }
 
   /// When the first bit of a frame went onto the wire whose last byte is byte `last` of this chunk.
   [[nodiscard]] Timestamp first_bit(std::size_t last, std::size_t frame_size) const {

@@ -11,6 +11,7 @@
 #include "picolo/core/status.hpp"
 #include "picolo/core/time.hpp"
 #include "picolo/drivers/common/framer.hpp"
+#include "picolo/drivers/common/turn_cutter.hpp"
 #include "picolo/drivers/ld06/ld06_packet.hpp"
 #include "picolo/sensing/range_return.hpp"
 
@@ -56,13 +57,9 @@ class Ld06Readings {
   void convert(const Ld06Packet& packet, std::span<RangeReading, kLd06PointsPerPacket> readings);
 
  private:
-  [[nodiscard]] bool passes_zero(std::uint32_t angle);
-
   Ld06ReadingConfig config_;
   /// In 1/11 of 0.01 degrees, so that every point is a whole number.
-  std::uint32_t last_angle_ = 0;
-  std::int32_t since_start_ = 0;  ///< angle travelled since the last start
-  bool has_last_ = false;
+  TurnCutter cutter_{kLd06FullTurnCdeg * (kLd06PointsPerPacket - 1)};
 };
 
 }  // namespace picolo::inline v0

@@ -8,6 +8,7 @@
 #include <span>
 
 #include "picolo/core/time.hpp"
+#include "picolo/drivers/common/sample_timeline.hpp"
 #include "picolo/drivers/ld06/ld06_packet.hpp"
 #include "picolo/sensing/device_clock.hpp"
 #include "picolo/sensing/range_return.hpp"
@@ -34,18 +35,18 @@ struct Ld06TimelineConfig {
 class Ld06Timeline {
  public:
   explicit Ld06Timeline(const Ld06TimelineConfig& config = {})
-      : config_(config), clock_(config.clock) {}
+      : config_(config), clock_(config.clock), timeline_(config.points_per_second) {}
 
   /// `first_bit`: when the packet began on the wire. Writes the stamps of all readings.
   void stamp(Timestamp first_bit, std::uint16_t timestamp_ms,
              std::span<RangeReading, kLd06PointsPerPacket> readings);
-  [[nodiscard]] Timestamp last_stamp() const { return last_; }
+  [[nodiscard]] Timestamp last_stamp() const { return timeline_.last_stamp(); }
   [[nodiscard]] std::uint32_t clock_restarts() const { return clock_.restarts(); }
 
  private:
   Ld06TimelineConfig config_;
   DeviceClock clock_;
-  Timestamp last_ = Timestamp::min();
+  SampleTimeline timeline_;
 };
 
 }  // namespace picolo::inline v0

@@ -43,11 +43,12 @@ Status make_raw(int fd, std::uint32_t baud) {
   return same_rate(baud, actual.c_ospeed) ? Status::ok : Status::unsupported;
 }
 
+constexpr auto kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
+
 /// USB adapters hold bytes back for up to 16 ms otherwise. Where it is not offered nothing is lost.
 void ask_for_low_latency(int fd) {
   serial_struct settings{};
   if (::ioctl(fd, TIOCGSERIAL, &settings) != 0) { return; }
-  constexpr auto kLowLatency = static_cast<int>(ASYNC_LOW_LATENCY);
   settings.flags |= kLowLatency;
   static_cast<void>(::ioctl(fd, TIOCSSERIAL, &settings));
 }
@@ -127,6 +128,11 @@ std::uint32_t TermiosSerialPort::overruns() const {
   if (::ioctl(device_.get(), TIOCGICOUNT, &counters) != 0) { return 0; }
   return static_cast<std::uint32_t>(counters.overrun) +
          static_cast<std::uint32_t>(counters.buf_overrun);
+}
+
+bool TermiosSerialPort::low_latency() const {
+  serial_struct settings{};
+  return ::ioctl(device_.get(), TIOCGSERIAL, &settings) == 0 && (settings.flags & kLowLatency) != 0;
 }
 
 void TermiosSerialPort::lose_device() {

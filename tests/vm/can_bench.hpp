@@ -45,7 +45,7 @@ class CanPort : public ::testing::TestWithParam<Wiring> {
     ADD_FAILURE() << "the last frame did not arrive";
     return frames;
   }
-  void set_link(const char* state) { shell("/bin/ip link set " + GetParam().port + " " + state); }
+  void set_link(const char* state) { shell("/sbin/ip link set " + GetParam().port + " " + state); }
 
   LinuxClock clock;
   CanNode other{GetParam().other};

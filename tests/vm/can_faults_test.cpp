@@ -65,8 +65,8 @@ TEST_P(CanFaults, ErrorFramesBecomeTheStateOfTheBusAndNothingElse) {
 
 TEST_P(CanFaults, AnInterfaceThatGoesDownAndUpIsNoticedBothTimes) {
   open();
-  lose_interface("/bin/ip link set " + GetParam().port + " down");
-  shell("/bin/ip link set " + GetParam().port + " up");
+  lose_interface("/sbin/ip link set " + GetParam().port + " down");
+  shell("/sbin/ip link set " + GetParam().port + " up");
   expect_back();
   EXPECT_EQ(bus.counters().reopened, 0U);
 }
@@ -93,7 +93,7 @@ TEST_P(CanFaults, AnInterfaceThatIsNotThereYetIsWaitedFor) {
 
 // A queue of four frames, of which none leaves before 200 ms.
 TEST_P(CanFaults, AFullQueueRefusesFramesAndIsNeverWedged) {
-  shell("/bin/tc qdisc replace dev " + GetParam().port + " root netem delay 200ms limit 4");
+  shell("/sbin/tc qdisc replace dev " + GetParam().port + " root netem delay 200ms limit 4");
   open();
   for (int round = 0; round < 3; ++round) {
     Status status = Status::ok;
@@ -115,7 +115,7 @@ TEST_P(CanFaults, AFullQueueRefusesFramesAndIsNeverWedged) {
     }
   }
   EXPECT_GE(bus.status().tx_refused, 3U);
-  shell("/bin/tc qdisc del dev " + GetParam().port + " root");
+  shell("/sbin/tc qdisc del dev " + GetParam().port + " root");
   EXPECT_EQ(bus.transmit({.id = 0x3FF}), Status::ok);
   EXPECT_TRUE(other.receive());
 }
@@ -141,7 +141,7 @@ TEST_P(CanFaults, ABusThatIsOffTakesNothingAndIsFoundOnAgain) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(Vcan, CanFaults, kOnVcan);
-INSTANTIATE_TEST_SUITE_P(Sja1000, CanFaults, kOnControllers);
+INSTANTIATE_TEST_SUITE_P(Vcan, CanFaults, ::testing::Values(vcan()));
+INSTANTIATE_TEST_SUITE_P(Sja1000, CanFaults, ::testing::Values(controllers()));
 
 }  // namespace picolo::test

@@ -95,12 +95,14 @@ TEST_P(CanPort, WhatTheKernelDropsIsCountedToTheFrame) {
   EXPECT_EQ(small.status().received + small.status().rx_lost, kSent + 1);
 }
 
-TEST_P(CanPort, HoldsATenthOfASecondOfAFullBus) {
+// A third of a second of a full bus of 1 Mbit/s, when it may have what it asks for.
+TEST_P(CanPort, HoldsWhatItsBufferWasGranted) {
   open();
-  constexpr std::uint32_t kFrames = 1000;
-  for (std::uint32_t i = 0; i < kFrames; ++i) { ASSERT_TRUE(other.send(CanFrame{.id = 0x181})); }
+  constexpr int kBytesPerFrame = 768;  // in the kernel's account
+  const int frames = bus.receive_buffer_bytes() / kBytesPerFrame - 10;
+  for (int i = 0; i < frames; ++i) { ASSERT_TRUE(other.send(CanFrame{.id = 0x181})); }
   ASSERT_TRUE(other.send(kLast));
-  EXPECT_EQ(frames_until(kLast.id).size(), kFrames);
+  EXPECT_EQ(frames_until(kLast.id).size(), static_cast<std::size_t>(frames));
   EXPECT_EQ(bus.status().rx_lost, 0U);
 }
 
@@ -123,7 +125,7 @@ TEST(VcanFd, FramesOfCanFdAreIgnoredAndDoNoHarm) {
 
 }  // namespace
 
-INSTANTIATE_TEST_SUITE_P(Vcan, CanPort, kOnVcan);
-INSTANTIATE_TEST_SUITE_P(Sja1000, CanPort, kOnControllers);
+INSTANTIATE_TEST_SUITE_P(Vcan, CanPort, ::testing::Values(vcan()));
+INSTANTIATE_TEST_SUITE_P(Sja1000, CanPort, ::testing::Values(controllers()));
 
 }  // namespace picolo::test

@@ -70,9 +70,11 @@ bool CanNode::send_error(std::uint32_t kind, std::uint8_t controller) const {
   return send(raw);
 }
 
-Result<CanFrame> CanNode::receive() const {
+Result<CanFrame> CanNode::receive(Duration patience) const {
   pollfd ready{.fd = socket_.get(), .events = POLLIN, .revents = 0};
-  if (::poll(&ready, 1, kPatienceMs) != 1) { return Status::not_ready; }
+  if (::poll(&ready, 1, static_cast<int>(patience.count() / 1000)) != 1) {
+    return Status::not_ready;
+  }
   can_frame raw{};
   if (::recv(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT) != static_cast<ssize_t>(sizeof raw)) {
     return Status::not_ready;

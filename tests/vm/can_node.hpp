@@ -25,8 +25,8 @@ class CanNode {
   bool send(const canfd_frame& frame) const;
   /// An error frame as the kernel makes it. Only sockets on the same interface see it.
   bool send_error(std::uint32_t kind, std::uint8_t controller = 0) const;
-  /// Waits up to a second of the machine's time; `not_ready`: nothing came.
-  [[nodiscard]] Result<CanFrame> receive() const;
+  /// Waits for as long as `patience` of the machine's time; `not_ready`: nothing came.
+  [[nodiscard]] Result<CanFrame> receive(Duration patience = 1s) const;
 
  private:
   FileDescriptor socket_;

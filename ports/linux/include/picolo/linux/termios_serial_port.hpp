@@ -23,14 +23,16 @@ struct TermiosConfig {
 
 /// Raw mode, 8N1, no flow control, non-blocking; short latency where the adapter offers it. Stamps
 /// are the time of the read. A device that is unplugged answers `disconnected`; `read` opens it
-/// again under the same path when it has come back. Paths are kept in the object (255 characters);
+/// again under the same path when it has come back (a link of /dev/serial/by-id stays the same
+/// wherever an adapter is plugged in). Paths are kept in the object (255 characters);
 /// no heap.
 class TermiosSerialPort final : public SerialPort {
  public:
   TermiosSerialPort(Clock& clock, const TermiosConfig& config) : clock_(clock), config_(config) {}
 
-  /// `invalid_argument`: configuration or path. `unsupported`: the device is no terminal, or cannot
-  /// do this rate within 3 %. `io_error`: errno says why. Bytes that came before are thrown away.
+  /// `invalid_argument`: configuration or path. `unsupported`: the device is no terminal, or its
+  /// driver says that it cannot do this rate within 3 %. `io_error`: errno says why. Bytes that
+  /// came before are thrown away.
   Status open(const char* path);
   /// Takes over an open terminal; it is not opened again after it has gone. Status as above.
   Status adopt(int fd);
@@ -42,6 +44,11 @@ class TermiosSerialPort final : public SerialPort {
   /// What the driver of the UART counts as overruns; 0 where it does not count.
   [[nodiscard]] std::uint32_t lost() const override;
 
+  /// Whether the driver promises to hand bytes on at once. False for adapters that hold them back
+  /// (FTDI without it: 16 ms), and for those that do not tell.
+  [[nodiscard]] bool low_latency() const;
+  /// For poll and epoll; negative: none. Changes when the device has come back.
+  [[nodiscard]] int descriptor() const { return device_.get(); }
   /// How often the device has gone.
   [[nodiscard]] std::uint32_t disconnects() const { return disconnects_; }
 

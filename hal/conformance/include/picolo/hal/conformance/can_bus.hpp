@@ -16,7 +16,8 @@ namespace picolo::inline v0::conformance {
 /// `inject`: another node sends a frame. `sent`: the oldest frame of the port that another node has
 /// received and not yet returned, `not_ready` when there is none. `wait`: lets time pass. `now`:
 /// the port's clock. Optional: `unplug()` and `plug()`, for a controller that can go away and come
-/// back.
+/// back; `static constexpr std::uint8_t kRemoteLength`, for an emulated controller that damages
+/// remote frames of other lengths.
 template <typename H>
 concept CanBusHarness = requires(H& harness, const CanFrame& frame, Duration duration) {
   { harness.bus() } -> std::convertible_to<CanBus&>;
@@ -56,6 +57,12 @@ void can_bus_receives(Harness& harness, Checker& checker, const CanFrame& frame,
   checker.expect(injected && received && same_on_wire(*received, frame), contract, cure);
 }
 
+template <typename Harness>
+constexpr std::uint8_t remote_length() {
+  if constexpr (requires { Harness::kRemoteLength; }) { return Harness::kRemoteLength; }
+  return 4;
+}
+
 template <CanBusHarness Harness>
 void can_bus_receives_all_kinds(Harness& harness, Checker& checker) {
   checker.expect(harness.bus().receive().status() == Status::not_ready,
@@ -77,7 +84,7 @@ void can_bus_receives_all_kinds(Harness& harness, Checker& checker) {
   can_bus_receives(harness, checker, extended,
                    "CanBus::receive tells a 29-bit identifier below 0x800 from an 11-bit one",
                    "set CanFrame::extended from the IDE bit, not from the identifier's size");
-  CanFrame remote{.id = 0x321, .remote = true, .length = 4};
+  CanFrame remote{.id = 0x321, .remote = true, .length = remote_length<Harness>()};
   can_bus_receives(harness, checker, remote,
                    "CanBus::receive says which frames are remote requests",
                    "set CanFrame::remote from the RTR bit");

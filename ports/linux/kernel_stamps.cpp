@@ -3,9 +3,12 @@
 
 #include "picolo/linux/kernel_stamps.hpp"
 
+#include <sys/socket.h>
 #include <time.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace picolo::inline v0 {
 namespace {
@@ -13,10 +16,14 @@ namespace {
 constexpr Duration kSlack = 1ms;
 constexpr std::int64_t kSlackNs = 1'000'000;
 
+std::int64_t nanoseconds(const timespec& time) {
+  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+}
+
 std::int64_t read_ns(clockid_t clock) {
   timespec time{};
   static_cast<void>(clock_gettime(clock, &time));
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
+  return nanoseconds(time);
 }
 
 Timestamp to_monotonic(std::int64_t realtime_ns, std::int64_t offset_ns) {
@@ -24,6 +31,22 @@ Timestamp to_monotonic(std::int64_t realtime_ns, std::int64_t offset_ns) {
 }
 
 }  // namespace
+
+KernelStamps kernel_stamps(msghdr& message) {
+  KernelStamps stamps;
+  for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr;
+       header = CMSG_NXTHDR(&message, header)) {
+    if (header->cmsg_level != SOL_SOCKET) { continue; }
+    // Software, transformed, hardware; software alone with SO_TIMESTAMPNS.
+    std::array<timespec, 3> times{};
+    const bool alone = header->cmsg_type == SCM_TIMESTAMPNS;
+    if (!alone && header->cmsg_type != SCM_TIMESTAMPING) { continue; }
+    std::memcpy(times.data(), CMSG_DATA(header), alone ? sizeof times[0] : sizeof times);
+    if (nanoseconds(times[0]) != 0) { stamps.realtime_ns = nanoseconds(times[0]); }
+    stamps.hardware_ns = std::max(stamps.hardware_ns, nanoseconds(times[2]));
+  }
+  return stamps;
+}
 
 std::int64_t realtime_minus_monotonic_ns() {
   // Wall time between two readings of the monotonic clock: an interruption in between costs at most

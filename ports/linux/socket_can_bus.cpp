@@ -6,7 +6,6 @@
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <sys/socket.h>
-#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -18,17 +17,6 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr int kMaxSkipped = 16;  // frames that are not for the caller, in one call
-
-std::int64_t nanoseconds(const timespec& time) {
-  return std::int64_t{time.tv_sec} * 1'000'000'000 + time.tv_nsec;
-}
-
-template <typename T>
-T control_value(cmsghdr* header) {
-  T value{};
-  std::memcpy(&value, CMSG_DATA(header), sizeof value);
-  return value;
-}
 
 bool is_gone(int error) {
   return error == ENETDOWN || error == ENODEV || error == ENXIO || error == EPIPE ||
@@ -106,17 +94,13 @@ Status SocketCanBus::receive_datagram(Datagram& datagram) {
   datagram.classic = size == static_cast<ssize_t>(sizeof(can_frame));
   datagram.own = (message.msg_flags & MSG_CONFIRM) != 0;
   std::memcpy(&datagram.frame, &wire, sizeof datagram.frame);
+  datagram.stamps = kernel_stamps(message);
   for (cmsghdr* header = CMSG_FIRSTHDR(&message); header != nullptr;
        header = CMSG_NXTHDR(&message, header)) {
-    if (header->cmsg_level != SOL_SOCKET) { continue; }
-    if (header->cmsg_type == SCM_TIMESTAMPNS) {
-      datagram.stamps.realtime_ns = nanoseconds(control_value<timespec>(header));
-    }
-    if (header->cmsg_type == SCM_TIMESTAMPING) {
-      const auto stamps = control_value<std::array<timespec, 3>>(header);
-      datagram.stamps.hardware_ns = nanoseconds(stamps[2]);  // [0] is the one above
-    }
-    if (header->cmsg_type == SO_RXQ_OVFL) { count_overflow(control_value<std::uint32_t>(header)); }
+    if (header->cmsg_level != SOL_SOCKET || header->cmsg_type != SO_RXQ_OVFL) { continue; }
+    std::uint32_t total = 0;
+    std::memcpy(&total, CMSG_DATA(header), sizeof total);
+    count_overflow(total);
   }
   return Status::ok;
 }

@@ -33,12 +33,13 @@ bool set_option(int fd, int level, int name, const T& value) {
 }
 
 /// Good to have, each of them: an account of what the kernel dropped, a buffer that makes it rare,
-/// stamps of the controller.
+/// stamps of the kernel and of the controller.
 void ask_for_more(int fd, std::int32_t buffer_bytes) {
   static_cast<void>(set_option(fd, SOL_SOCKET, SO_RXQ_OVFL, 1));
   if (!set_option(fd, SOL_SOCKET, SO_RCVBUFFORCE, buffer_bytes)) {
     static_cast<void>(set_option(fd, SOL_SOCKET, SO_RCVBUF, buffer_bytes));
   }
+  static_cast<void>(set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1));
   const unsigned stamps = SOF_TIMESTAMPING_RX_HARDWARE | SOF_TIMESTAMPING_RAW_HARDWARE |
                           SOF_TIMESTAMPING_RX_SOFTWARE | SOF_TIMESTAMPING_SOFTWARE;
   static_cast<void>(set_option(fd, SOL_SOCKET, SO_TIMESTAMPING, stamps));
@@ -108,8 +109,7 @@ Status SocketCanBus::adopt(int fd) {
 Status SocketCanBus::set_up(int fd) {
   socket_ = FileDescriptor{fd};
   const int flags = ::fcntl(fd, F_GETFL);
-  if (flags < 0 || ::fcntl(fd, F_SETFL, flags | O_NONBLOCK) != 0 ||
-      !set_option(fd, SOL_SOCKET, SO_TIMESTAMPNS, 1)) {
+  if (flags < 0 || ::fcntl(fd, F_SETFL, flags | O_NONBLOCK) != 0) {
     socket_.close();
     return Status::io_error;
   }

@@ -7,8 +7,12 @@
 #include "picolo/linux/kernel_stamps.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/socket.h>
+#include <time.h>
 
 #include <algorithm>
+#include <array>
+#include <cstring>
 
 namespace picolo {
 namespace {
@@ -44,6 +48,55 @@ class KernelStampsTest : public ::testing::Test {
   StampMapper mapper;
   Timestamp now{100s};
 };
+
+/// Control messages as the kernel lays them out.
+class Control {
+ public:
+  template <typename T>
+  void add(int type, const T& value) {
+    cmsghdr header{};
+    header.cmsg_level = SOL_SOCKET;
+    header.cmsg_type = type;
+    header.cmsg_len = CMSG_LEN(sizeof value);
+    std::memcpy(bytes_.data() + size_, &header, sizeof header);
+    std::memcpy(bytes_.data() + size_ + CMSG_LEN(0), &value, sizeof value);
+    size_ += CMSG_SPACE(sizeof value);
+  }
+  KernelStamps stamps() {
+    msghdr message{};
+    message.msg_control = bytes_.data();
+    message.msg_controllen = size_;
+    return kernel_stamps(message);
+  }
+
+ private:
+  alignas(cmsghdr) std::array<std::uint8_t, 256> bytes_{};
+  std::size_t size_ = 0;
+};
+
+TEST(KernelStampsOfADatagram, AreReadFromItsControlMessages) {
+  Control none;
+  none.add(SO_RXQ_OVFL, std::uint32_t{7});
+  EXPECT_EQ(none.stamps().realtime_ns, 0);
+  EXPECT_EQ(none.stamps().hardware_ns, 0);
+
+  Control software;
+  software.add(SCM_TIMESTAMPNS, timespec{.tv_sec = 5, .tv_nsec = 6});
+  EXPECT_EQ(software.stamps().realtime_ns, 5'000'000'006);
+  EXPECT_EQ(software.stamps().hardware_ns, 0);
+
+  Control both;
+  both.add(SO_RXQ_OVFL, std::uint32_t{7});
+  both.add(SCM_TIMESTAMPNS, timespec{.tv_sec = 5, .tv_nsec = 6});
+  both.add(SCM_TIMESTAMPING, std::array<timespec, 3>{{{5, 6}, {0, 0}, {7, 8}}});
+  EXPECT_EQ(both.stamps().realtime_ns, 5'000'000'006);
+  EXPECT_EQ(both.stamps().hardware_ns, 7'000'000'008);
+
+  Control hardware_only;
+  hardware_only.add(SCM_TIMESTAMPING, std::array<timespec, 3>{{{0, 0}, {0, 0}, {7, 8}}});
+  EXPECT_EQ(hardware_only.stamps().realtime_ns, 0);
+  EXPECT_EQ(hardware_only.stamps().hardware_ns, 7'000'000'008);
+}
 
 TEST_F(KernelStampsTest, GivenAStampOfThisDrainThenItIsMapped) {
   now += 5ms;

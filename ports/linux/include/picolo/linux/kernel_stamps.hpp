@@ -9,6 +9,8 @@
 #include "picolo/core/time.hpp"
 #include "picolo/sensing/device_clock.hpp"
 
+struct msghdr;
+
 namespace picolo::inline v0 {
 
 /// What the kernel knows about one datagram; 0: nothing.
@@ -16,6 +18,9 @@ struct KernelStamps {
   std::int64_t hardware_ns = 0;  ///< by the controller, on a clock of its own
   std::int64_t realtime_ns = 0;  ///< by the kernel, in wall time
 };
+
+/// From the control messages of a datagram (SO_TIMESTAMPNS, SO_TIMESTAMPING).
+[[nodiscard]] KernelStamps kernel_stamps(msghdr& message);
 
 struct MappedStamp {
   Timestamp stamp{};

@@ -72,15 +72,16 @@ long_groups() {
     builds+=(host-debug)
     ctest_rows host-debug " host-debug" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
+  if build_row host-clang; then
+    builds+=(host-clang)
+    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
+  fi
   say "run: comparing trajectories of ${builds[*]}"
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"
 }
 
-# Hours: the other compiler, the sanitizers, lint.
+# Hours: the sanitizers, lint.
 campaign_groups() {
-  if build_row host-clang; then
-    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
-  fi
   if build_row host-asan; then
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
@@ -101,7 +102,7 @@ run_test() {
   done
   [[ $(uname -m) == x86_64 ]] || packages_vm=()
   need_packages "${packages_build[@]}" "${packages_vm[@]}"
-  [[ $size != campaign ]] || need_packages "${packages_full[@]}"
+  [[ $size == short ]] || need_packages "${packages_full[@]}"
   mkdir -p "$root/build"
   : >"$records"
   if [[ $size == campaign ]]; then

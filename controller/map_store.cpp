@@ -76,23 +76,24 @@ Status MapStore::begin_load(RollingMapCore& map) {
   }
   target_ = &map;
   second_try_ = false;
-  return start_loading(newest());
+  return start_checking(newest());
 }
 
-Status MapStore::start_loading(std::size_t slot) {
+Status MapStore::start_checking(std::size_t slot) {
+  if (!MapDecoder::fits(slots_[slot].header, *target_)) { return Status::invalid_argument; }
   slot_ = slot;
   header_ = slots_[slot].header;
   at_ = 0;
   crc_ = 0;
-  const Status status = decoder_.begin(header_, *target_);
-  phase_ = is_ok(status) ? Phase::load : Phase::idle;
-  return status;
+  phase_ = Phase::verify;
+  return Status::ok;
 }
 
 Status MapStore::begin_save(const RollingMapCore& map) {
   const Status status = survey();
   if (!is_ok(status)) { return status; }
   const std::size_t newest_slot = newest();
+  target_ = nullptr;
   header_ = {};
   header_.sequence =
       is_ok(slots_[newest_slot].status) ? slots_[newest_slot].header.sequence + 1 : 1;
@@ -156,6 +157,7 @@ Status MapStore::write_piece() {
 Status MapStore::verify_piece() {
   const std::size_t size = std::min<std::size_t>(kPieceSize, header_.payload_bytes - at_);
   if (size == 0) {
+    if (target_ != nullptr) { return after_check(); }
     if (crc_ != header_.payload_crc) { return Status::corrupt; }
     phase_ = Phase::commit;
     return Status::not_ready;
@@ -180,26 +182,29 @@ Status MapStore::commit() {
   return back == bytes ? Status::ok : Status::corrupt;
 }
 
-Status MapStore::load_piece() {
-  const std::size_t size = std::min<std::size_t>(kPieceSize, header_.payload_bytes - at_);
-  Status status = Status::ok;
-  if (size > 0) {
-    Piece piece{};
-    const auto bytes = std::span{piece}.first(size);
-    status = medium_.read(slot_address(slot_) + kMapHeaderSize + at_, bytes);
-    if (!is_ok(status)) { return status; }
-    crc_ = crc32(bytes, crc_);
-    at_ += size;
-    status = decoder_.decode(bytes);
-    if (is_ok(status)) { return Status::not_ready; }
-  } else if (decoder_.complete() && crc_ == header_.payload_crc) {
-    return Status::ok;
+Status MapStore::after_check() {
+  if (crc_ == header_.payload_crc) {
+    at_ = 0;
+    phase_ = Phase::load;
+    return is_ok(decoder_.begin(header_, *target_)) ? Status::not_ready : Status::invalid_argument;
   }
   // Damaged since it was written: the other slot holds the map before.
   const std::size_t other = 1 - slot_;
   if (second_try_ || !is_ok(slots_[other].status)) { return Status::corrupt; }
   second_try_ = true;
-  status = start_loading(other);
+  const Status status = start_checking(other);
+  return is_ok(status) ? Status::not_ready : status;
+}
+
+Status MapStore::load_piece() {
+  const std::size_t size = std::min<std::size_t>(kPieceSize, header_.payload_bytes - at_);
+  if (size == 0) { return decoder_.complete() ? Status::ok : Status::corrupt; }
+  Piece piece{};
+  const auto bytes = std::span{piece}.first(size);
+  Status status = medium_.read(slot_address(slot_) + kMapHeaderSize + at_, bytes);
+  if (!is_ok(status)) { return status; }
+  at_ += size;
+  status = decoder_.decode(bytes);
   return is_ok(status) ? Status::not_ready : status;
 }
 

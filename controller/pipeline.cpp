@@ -6,15 +6,11 @@
 #include <algorithm>
 
 namespace picolo::inline v0 {
-namespace {
-
 HealthReason why_rejected(MatchOutcome outcome) {
   if (outcome == MatchOutcome::too_few_points) { return HealthReason::too_few_points; }
   if (outcome == MatchOutcome::out_of_map) { return HealthReason::out_of_map; }
   return HealthReason::match_rejected;
 }
-
-}  // namespace
 
 Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
                    LocaliserCore& localiser)

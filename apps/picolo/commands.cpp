@@ -40,6 +40,7 @@ ExitCode run(int argc, char** argv) {
   Action action;
   add_demo(app, action);
   add_replay(app, action);
+  add_match(app, action);
   add_calibrate(app, action);
   add_undistort(app, action);
   add_evaluate(app, action);

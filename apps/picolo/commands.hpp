@@ -32,6 +32,7 @@ ExitCode end_of_input(const std::string& name, const std::string& damage);
 using Action = std::function<ExitCode()>;
 void add_demo(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
+void add_match(CLI::App& app, Action& action);
 void add_undistort(CLI::App& app, Action& action);
 void add_evaluate(CLI::App& app, Action& action);
 void add_odometry3d(CLI::App& app, Action& action);

@@ -6,6 +6,7 @@
 
 #include <memory>
 
+#include "given_map.hpp"
 #include "picolo/heap_trap/heap_trap.hpp"
 #include "picolo/host/error.hpp"
 #include "picolo/host/map_mosaic.hpp"
@@ -21,10 +22,17 @@ template <Profile P>
 class DirectReplay {
  public:
   DirectReplay(const ReplayInput& input, const ReplaySettings& settings)
-      : input_{input}, localiser_{settings.localiser} {
-    if (input.use_odometry && !input.poses.empty()) {
-      core().set_pose(input.poses.front().odom_T_base, input.poses.front().odom_T_base);
+      : input_{input}, save_map_{settings.save_map}, localiser_{settings.localiser} {
+    if (!settings.map.empty()) {
+      frame_T_map_ = GivenMap{settings.map}.restore(core().restorable_map(), P::kName);
+      static_cast<void>(core().localise_in_restored_map());
     }
+    Pose2d odom_T_base{};
+    if (input.use_odometry && !input.poses.empty()) {
+      odom_T_base = input.poses.front().odom_T_base;
+    }
+    const Pose2d start = settings.map_T_start.value_or(odom_T_base);
+    core().set_pose(inverse(frame_T_map_) * start, odom_T_base);
   }
 
   DriveResult run() {
@@ -36,6 +44,8 @@ class DirectReplay {
     mosaic_.absorb(core().map());
     result_.map = mosaic_.image();
     result_.counters = core().counters();
+    move_into_frame(frame_T_map_, result_);
+    if (!save_map_.empty()) { save_map(core().map(), save_map_); }
     return std::move(result_);
   }
 
@@ -69,6 +79,9 @@ class DirectReplay {
     }
     result_.trajectory.push_back({scan.logged_s, core().map_T_base()});
     result_.odometry.push_back({scan.logged_s, logged_odometry(scan)});
+    health_.judge(scan.stamp, core(), core().report().points == 0 && core().accepted());
+    result_.health.at_scan(scan.logged_s, result_.trajectory.size() - 1, health_.state(),
+                           health_.reason());
   }
 
   /// False when odometry does not cover the sweep.
@@ -95,10 +108,13 @@ class DirectReplay {
   }
 
   const ReplayInput& input_;
+  std::string save_map_;
   PoseBuffer<256> poses_;
   Undistorter<P::kReturns> undistorter_;
   Localiser<P> localiser_;
   host::MapMosaic mosaic_;
+  ScanHealth health_;
+  Pose2d frame_T_map_{};
   DriveResult result_;
   std::size_t next_pose_ = 0;
   double match_us_ = 0.0;

@@ -18,6 +18,12 @@ host::Json quantiles(const std::vector<double>& values) {
   return {{"p50", host::quantile(values, 0.50)}, {"p99", host::quantile(values, 0.99)}};
 }
 
+void move_into_frame(const Pose2d& frame_T_map, DriveResult& drive) {
+  for (host::TrajectoryPose& pose : drive.trajectory) { pose.pose = frame_T_map * pose.pose; }
+  drive.map.origin_x_m += frame_T_map.x_m;
+  drive.map.origin_y_m += frame_T_map.y_m;
+}
+
 bool usable(const DriveResult& drive) {
   // the first scan only starts the map
   return drive.trajectory.size() < 2 ||

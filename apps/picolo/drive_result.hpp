@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "health_log.hpp"
 #include "picolo/host/json.hpp"
 #include "picolo/host/map_file.hpp"
 #include "picolo/host/trajectory.hpp"
@@ -27,7 +28,11 @@ struct DriveResult {
   std::vector<double> total_us;  ///< undistortion, match and map update; one a scan
   std::vector<double> iterations;
   host::OccupancyImage map;
+  HealthLog health;
 };
+
+/// Poses and map into the frame of a map that was given (see GivenMap).
+void move_into_frame(const Pose2d& frame_T_map, DriveResult& drive);
 
 /// How often each outcome of a match came, by name.
 [[nodiscard]] host::Json outcomes_json(const LocaliserCounters& counters);

@@ -23,6 +23,9 @@ struct ReplaySettings {
   float max_range_m = 30.0F;           ///< and less where the log states the scanner's own maximum
   std::optional<Pose2d> base_T_lidar;  ///< instead of what the log says
   bool use_odometry = true;
+  std::string map;                    ///< file to localise in; empty: build one
+  std::string save_map;               ///< file for the last window of the map; empty: none
+  std::optional<Pose2d> map_T_start;  ///< of the vehicle at the first scan, instead of its odometry
   LocaliserConfig localiser{};
 };
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <span>
 
+#include "given_map.hpp"
 #include "picolo/controller/controller.hpp"
 #include "picolo/drivers/canopen/canopen_wheels.hpp"
 #include "picolo/drivers/ld06/ld06.hpp"
@@ -14,6 +15,7 @@
 #include "picolo/host/error.hpp"
 #include "picolo/host/map_mosaic.hpp"
 #include "picolo/host/progress.hpp"
+#include "picolo/sim/sim_byte_store.hpp"
 #include "processor_time.hpp"
 #include "sweep_times.hpp"
 #include "wire_vehicle.hpp"
@@ -21,12 +23,18 @@
 namespace picolo::tool {
 namespace {
 
+constexpr std::size_t kFlashPerCell = 3;  // bytes of two slots, as long as the worst map
+constexpr std::size_t kFlashSector = 4096;
+constexpr std::size_t kFlashGranule = 8;
+constexpr std::size_t kMapPieces = 1024;
+
 template <Profile P>
 class WireReplay {
  public:
   WireReplay(const ReplayInput& input, const ReplaySettings& settings,
              std::span<const sim::LogStep> steps)
       : input_{input},
+        save_map_{settings.save_map},
         player_{player_config(), steps},
         wheels_{player_.can(), wheels_config()},
         lidar_{player_.lidar_port()},
@@ -37,7 +45,9 @@ class WireReplay {
                     events_,
                     controller_config(input, settings)},
         times_{controller_.pipeline()},
-        poses_(input.scans.size()) {}
+        poses_(input.scans.size()) {
+    if (!settings.map.empty()) { load(settings); }
+  }
 
   DriveResult run() {
     host::Progress progress{"replay through wires", input_.scans.size()};
@@ -69,6 +79,31 @@ class WireReplay {
 
   [[nodiscard]] const LocaliserCore& localiser() const {
     return controller_.pipeline().localiser();
+  }
+
+  /// As a vehicle does: from a byte store.
+  void load(const ReplaySettings& settings) {
+    const auto map = std::make_unique<RollingMap<P::kWidth, P::kHeight>>(
+        fine_map_config<P>(settings.localiser.map));
+    const Pose2d frame_T_map = GivenMap{settings.map}.restore(map->core(), P::kName);
+    if (frame_T_map.x_m != 0.0 || frame_T_map.y_m != 0.0) {
+      throw host::UserError{host::ExitCode::usage, settings.map,
+                            "its origin is no whole number of cells from zero, as --wire needs it",
+                            "replay without --wire"};
+    }
+    std::vector<std::uint8_t> flash(kFlashPerCell * map->core().occupancy().size());
+    sim::SimByteStore medium{flash, kFlashSector, kFlashGranule};
+    MapStore store{medium};
+    Status status = store.begin_save(map->core());
+    if (is_ok(status)) {
+      do { status = store.step(kMapPieces); } while (status == Status::not_ready);
+    }
+    if (is_ok(status)) { status = controller_.load_map(store); }
+    if (!is_ok(status)) {
+      throw host::UserError{host::ExitCode::refused, settings.map,
+                            fmt::format("the controller refuses the map: {}", to_string(status)),
+                            "replay without --wire"};
+    }
   }
 
   Status run_frame() {
@@ -110,6 +145,11 @@ class WireReplay {
   }
 
   void close_step() {
+    if (steps_seen_ > 0) {
+      const PoseEstimate& estimate = controller_.estimate();
+      result_.health.at_scan(input_.scans[steps_seen_ - 1].logged_s, steps_seen_ - 1,
+                             estimate.state, estimate.reason);
+    }
     if (steps_seen_ > 0 && times_.total_us() > 0.0) {
       result_.total_us.push_back(times_.total_us());
       if (steps_seen_ > 1) { result_.match_us.push_back(times_.match_us()); }
@@ -127,10 +167,12 @@ class WireReplay {
     mosaic_.absorb(localiser().map());
     result_.map = mosaic_.image();
     result_.counters = localiser().counters();
+    if (!save_map_.empty()) { save_map(localiser().map(), save_map_); }
     return std::move(result_);
   }
 
   const ReplayInput& input_;
+  std::string save_map_;
   sim::LogPlayer player_;
   ProcessorTimeCounter cycles_;
   CanopenWheels wheels_;

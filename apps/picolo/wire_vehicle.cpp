@@ -32,7 +32,7 @@ ControllerConfig controller_config(const ReplayInput& input, const ReplaySetting
   config.undistort.base_T_lidar = input.scans.front().base_T_lidar;
   config.undistort.limits = input.scans.front().limits;
   config.localiser = settings.localiser;
-  config.start_map_T_base = input.scans.front().odom_T_base;
+  config.start_map_T_base = settings.map_T_start.value_or(input.scans.front().odom_T_base);
   // Scans of a log may lie a metre of bad odometry apart: corrections that would be contradictions
   // ten times a second are in order here, as they are in direct replay.
   config.trust = {.good_inlier_share = 0.0F,
@@ -40,6 +40,10 @@ ControllerConfig controller_config(const ReplayInput& input, const ReplaySetting
                   .max_correction_rad = 4.0F,
                   .max_pull_m = 1e6F,
                   .max_pull_rad = 1e6F};
+  // The lidar of the player turns only while the vehicle stands, and it drives as long as it takes.
+  config.health.max_match_age = 1h;
+  config.health.max_lidar_age = 1h;
+  config.health.max_blind = 1h;
   // of a computer, not of a microcontroller
   config.work.max_returns = 4096;
   config.work.max_point_iterations = 20'000;

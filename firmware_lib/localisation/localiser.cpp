@@ -50,19 +50,39 @@ void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base
   accepted_odom_T_base_ = odom_T_base;
 }
 
-Status LocaliserCore::localise_in_restored_map() {
+Status LocaliserCore::begin_adopting() {
   if (phase_ != LocaliserPhase::idle) { return Status::invalid_argument; }
-  restore_coarse(fine_, coarse_);
-  for (RollingMapCore* map : {&fine_, &coarse_}) {
-    map->mark_all_stale();
-    map->repair(map->stale_tiles());
-  }
+  place_coarse(fine_, coarse_);
+  fine_.mark_all_stale();
+  coarse_.mark_all_stale();
+  adopted_rows_ = 0;
   localises_only_ = true;
   return Status::ok;
 }
 
+bool LocaliserCore::adopt_step(int max_tiles) {
+  if (adopted_rows_ < 0) { return true; }
+  for (int k = 0; k < max_tiles && adopted_rows_ < coarse_.window().height; ++k) {
+    restore_coarse_row(fine_, coarse_, adopted_rows_);
+    ++adopted_rows_;
+  }
+  if (adopted_rows_ < coarse_.window().height) { return false; }
+  if (coarse_.repair(max_tiles) + fine_.repair(max_tiles) > 0) { return false; }
+  adopted_rows_ = -1;
+  return true;
+}
+
+Status LocaliserCore::localise_in_restored_map() {
+  const Status status = begin_adopting();
+  if (status != Status::ok) { return status; }
+  while (!adopt_step(config_.max_repair_tiles)) {}  // at most the coarse rows plus all tiles
+  return Status::ok;
+}
+
 Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) {
-  if (!config_.valid() || phase_ != LocaliserPhase::idle) { return Status::invalid_argument; }
+  if (!config_.valid() || phase_ != LocaliserPhase::idle || adopted_rows_ >= 0) {
+    return Status::invalid_argument;
+  }
   sweep_ = sweep;
   ++counters_.sweeps;
   // Kohlbrecher's start: map_T_base(t-1) * odom_T_base(t-1)^-1 * odom_T_base(t).

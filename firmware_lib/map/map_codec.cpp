@@ -29,6 +29,14 @@ int shift_of(int from_origin, int from_size, int to_size) {
   return from_size == to_size ? from_origin : from_origin + (from_size - to_size) / 2;
 }
 
+int factor_of(const RollingMapCore& fine, const RollingMapCore& coarse) {
+  return round_to_i32(coarse.window().cell_m / fine.window().cell_m, 1, fine.window().width);
+}
+
+int floor_divide(int value, int divisor) {
+  return value >= 0 ? value / divisor : -((divisor - 1 - value) / divisor);
+}
+
 }  // namespace
 
 void encode_map_header(const MapHeader& header, std::span<std::uint8_t, kMapHeaderSize> bytes) {
@@ -136,11 +144,14 @@ std::size_t MapEncoder::encode(std::span<std::uint8_t> out) {
   return written;
 }
 
+bool MapDecoder::fits(const MapHeader& header, const RollingMapCore& target) {
+  return header.window.cell_m == target.window().cell_m &&
+         header.occupied_from == target.config().occupied_from;
+}
+
 Status MapDecoder::begin(const MapHeader& header, RollingMapCore& target) {
   const GridWindow& to = target.window();
-  if (header.window.cell_m != to.cell_m || header.occupied_from != target.config().occupied_from) {
-    return Status::invalid_argument;
-  }
+  if (!fits(header, target)) { return Status::invalid_argument; }
   const int x = shift_of(header.window.origin_x_cells, header.window.width, to.width);
   const int y = shift_of(header.window.origin_y_cells, header.window.height, to.height);
   target.place(x, y);
@@ -204,38 +215,33 @@ Status MapDecoder::decode(ByteView bytes) {
   return Status::ok;
 }
 
-void restore_coarse(const RollingMapCore& fine, RollingMapCore& coarse) {
+void place_coarse(const RollingMapCore& fine, RollingMapCore& coarse) {
+  const int factor = factor_of(fine, coarse);
+  coarse.place(floor_divide(fine.window().origin_x_cells, factor),
+               floor_divide(fine.window().origin_y_cells, factor));
+}
+
+void restore_coarse_row(const RollingMapCore& fine, RollingMapCore& coarse, int row) {
+  const int factor = factor_of(fine, coarse);
   const GridWindow& from = fine.window();
-  const int factor = round_to_i32(coarse.window().cell_m / from.cell_m, 1, from.width);
-  const auto floor_divide = [factor](int x) {
-    return x >= 0 ? x / factor : -((factor - 1 - x) / factor);
-  };
-  const int x0 = floor_divide(from.origin_x_cells);
-  const int y0 = floor_divide(from.origin_y_cells);
-  coarse.place(x0, y0);
   const GridWindow& to = coarse.window();
-  const auto known_at = [&fine, &from](int column, int row) {
-    return fine.occupancy()[static_cast<std::size_t>(row) * static_cast<std::size_t>(from.width) +
-                            static_cast<std::size_t>(column)];
-  };
-  for (int row = 0; row < to.height; ++row) {
-    const int first_y = std::max(0, (y0 + row) * factor - from.origin_y_cells);
-    const int end_y = std::min(from.height, (y0 + row + 1) * factor - from.origin_y_cells);
-    for (int column = 0; column < to.width; ++column) {
-      const int first_x = std::max(0, (x0 + column) * factor - from.origin_x_cells);
-      const int end_x = std::min(from.width, (x0 + column + 1) * factor - from.origin_x_cells);
-      std::int8_t most = 0;
-      bool known = false;
-      for (int y = first_y; y < end_y; ++y) {
-        for (int x = first_x; x < end_x; ++x) {
-          const std::int8_t cell = known_at(x, y);
-          if (cell == 0) { continue; }
-          most = known ? std::max(most, cell) : cell;
-          known = true;
-        }
+  const int row_y = (to.origin_y_cells + row) * factor - from.origin_y_cells;
+  const int first_y = std::max(0, row_y);
+  const int end_y = std::min(from.height, row_y + factor);
+  for (int column = 0; column < to.width; ++column) {
+    const int column_x = (to.origin_x_cells + column) * factor - from.origin_x_cells;
+    const int first_x = std::max(0, column_x);
+    const int end_x = std::min(from.width, column_x + factor);
+    std::int8_t most = 0;
+    for (int y = first_y; y < end_y; ++y) {
+      for (int x = first_x; x < end_x; ++x) {
+        const std::int8_t cell =
+            fine.occupancy()[static_cast<std::size_t>(y) * static_cast<std::size_t>(from.width) +
+                             static_cast<std::size_t>(x)];
+        if (cell != 0) { most = most == 0 ? cell : std::max(most, cell); }
       }
-      coarse.restore(column, row, std::span{&most, 1});
     }
+    coarse.restore(column, row, std::span{&most, 1});
   }
 }
 

@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "direct_replay.hpp"
 #include "drive_files.hpp"
+#include "matcher_replay.hpp"
 #include "picolo/host/config_file.hpp"
 #include "picolo/host/library_config.hpp"
 #include "picolo/host/quantile.hpp"
@@ -31,6 +32,10 @@ struct Options {
   std::optional<float> max_range_m;
   std::vector<double> lidar;
   std::string calibration;
+  std::string map;
+  std::vector<double> start;
+  std::string save_map;
+  std::string matcher;
   double ticks_per_turn = 0.0;
 };
 
@@ -47,6 +52,17 @@ ReplaySettings settings_from(const Options& options) {
   settings.use_odometry = !options.no_odometry;
   if (options.lidar.size() == 3) {
     settings.base_T_lidar = Pose2d{options.lidar[0], options.lidar[1], options.lidar[2]};
+  }
+  settings.map = options.map;
+  settings.save_map = options.save_map;
+  if (options.start.size() == 3) {
+    settings.map_T_start = Pose2d{options.start[0], options.start[1], options.start[2]};
+  }
+  if (!options.matcher.empty() && (options.wire || !options.map.empty() ||
+                                   !options.save_map.empty() || !options.start.empty())) {
+    throw host::UserError{ExitCode::usage, "",
+                          "--matcher runs a matcher alone, without controller, given map or start",
+                          "leave out --wire, --map, --save-map and --start"};
   }
   if (!RangeLimits{settings.min_range_m, settings.max_range_m}.valid()) {
     throw host::UserError{ExitCode::usage, options.common.config,
@@ -69,6 +85,7 @@ void report(const DriveResult& drive, const DriveErrors& errors, const Options& 
     json["total_us"] = quantiles(drive.total_us);
     json["iterations"] = quantiles(drive.iterations);
     json["heap_calls"] = drive.heap_calls;
+    if (options.matcher.empty()) { json["health"] = to_json(drive.health); }
     if (judged) {
       json["ape"] = to_json(errors.trajectory);
       json["ape_odometry"] = to_json(errors.odometry);
@@ -87,6 +104,7 @@ void report(const DriveResult& drive, const DriveErrors& errors, const Options& 
         "APE rmse {:.4f} m, median {:.4f} m, max {:.4f} m over {} poses; odometry {:.3f} m\n",
         ape.rmse, ape.median, ape.max, ape.count, errors.odometry.statistics.rmse);
   }
+  if (options.matcher.empty()) { fmt::print("{}", to_lines(drive.health)); }
   fmt::print("picture: {}\n", (folder / "picture.png").string());
 }
 
@@ -106,6 +124,15 @@ ExitCode judge(const DriveResult& drive, const DriveErrors& errors, const Option
   return ExitCode::done;
 }
 
+DriveResult run(const ReplayInput& input, const ReplaySettings& settings, const Options& options,
+                host::Diagnostics& diagnostics) {
+  if (!options.matcher.empty()) {
+    return replay_with_matcher(input, settings, matcher_kind(options.matcher));
+  }
+  return options.wire ? replay_through_wires(input, settings, diagnostics)
+                      : replay_directly(input, settings);
+}
+
 ExitCode replay(const Options& options) {
   ReplaySettings settings = settings_from(options);
   host::Diagnostics diagnostics;
@@ -122,8 +149,7 @@ ExitCode replay(const Options& options) {
     host::LineReader reference_reader{options.reference};
     reference = read_tum(reference_reader, diagnostics);
   }
-  DriveResult drive = options.wire ? replay_through_wires(input, settings, diagnostics)
-                                   : replay_directly(input, settings);
+  DriveResult drive = run(input, settings, options, diagnostics);
   drive.truth = reference.poses;
   drive.truth_name = "reference";
   const DriveErrors errors = evaluate(drive);
@@ -152,6 +178,24 @@ void add_replay(CLI::App& app, Action& action) {
                     "Do not give the log's odometry to the localiser");
   command->add_flag("--wire", options->wire,
                     "Play the log as CAN frames and lidar bytes into the installed controller");
+  command
+      ->add_option("--map", options->map,
+                   "Localise only, in this map: YAML of ROS's map_server, or a file of --save-map")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--start", options->start,
+          "Pose of the vehicle in the map at the first scan; by default the log's odometry")
+      ->expected(3)
+      ->type_name("X Y YAW");
+  command
+      ->add_option("--save-map", options->save_map,
+                   "Also write the map's last window as the byte store of a vehicle holds it")
+      ->type_name("FILE");
+  command
+      ->add_option("--matcher", options->matcher,
+                   std::string{"This matcher alone instead of the estimator: "} + kMatcherNames)
+      ->type_name("NAME");
   command->add_option("--profile", options->profile, "How much it remembers: room, hall or site")
       ->type_name("NAME");
   command->add_option("--max-range", options->max_range_m, "Longer ranges are no measurements")
@@ -182,6 +226,10 @@ void add_replay(CLI::App& app, Action& action) {
       "      stop-and-scan in virtual time through drivers and cyclic executive\n"
       "  picolo calibrate linear intel.clf.gz --out cal\n"
       "  picolo replay intel.clf.gz --calibration cal/calibration.json\n"
+      "  picolo replay monday.clf --out mon && picolo replay tuesday.clf --map mon/map.yaml\n"
+      "      the second drive is localised in the map of the first, which stays as it is\n"
+      "  picolo replay intel.clf.gz --matcher ndt\n"
+      "      odometry, one match a scan, map update: what a matcher does without the rest\n"
       "  picolo replay hand-held.clf.gz --no-odometry --out /tmp/lidar-only\n"
       "\n"
       "Records: FLASER, ROBOTLASER1 (scans with odometry), or SWEEP with ODOM; other lines are\n"

@@ -190,7 +190,8 @@ TEST(RestoreCoarse, ACoarseCellIsItsMostOccupiedKnownCell) {
   fine->core().restore(7, 3, {&wall, 1});  // map cell (1, 13), the same coarse cell (0, 3)
   fine->core().restore(1, 0, {&free, 1});  // map cell (-5, 10): coarse (-2, 2)
   const auto coarse = std::make_unique<RollingMap<16, 16>>(MapConfig{.cell_m = 0.2F});
-  restore_coarse(fine->core(), coarse->core());
+  place_coarse(fine->core(), coarse->core());
+  for (int row = 0; row < 16; ++row) { restore_coarse_row(fine->core(), coarse->core(), row); }
   const GridWindow& window = coarse->core().window();
   EXPECT_EQ(window.origin_x_cells, -2);
   EXPECT_EQ(window.origin_y_cells, 2);

@@ -126,6 +126,7 @@ TEST(MapStore, DamageSinceTheSaveFallsBackToTheMapBefore) {
   EXPECT_TRUE(same(back, *numbered(1)));
   flash.device.memory()[kMapHeaderSize + 20] ^= 0x10U;
   EXPECT_EQ(load(flash.device, back), Status::corrupt);
+  EXPECT_TRUE(same(back, *numbered(1))) << "untouched";
 }
 
 TEST(MapStore, TooSmallASlotIsFullAndTheOldMapStays) {

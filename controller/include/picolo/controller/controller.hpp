@@ -13,6 +13,7 @@
 #include "picolo/controller/command_desk.hpp"
 #include "picolo/controller/controller_config.hpp"
 #include "picolo/controller/devices.hpp"
+#include "picolo/controller/map_store.hpp"
 #include "picolo/controller/pipeline.hpp"
 #include "picolo/controller/pose_composer.hpp"
 #include "picolo/controller/reporter.hpp"
@@ -80,6 +81,18 @@ class Controller {
     if (status != Status::ok) { supervisor_.refuse_configuration(); }
     publish(now);
     return status;
+  }
+  /// Before `start`: the newest map of the store becomes the one in which sweeps are localised,
+  /// from `start_map_T_base` of the configuration on; it is not changed any more. Status as
+  /// MapStore::begin_load and step; after a failure the controller builds its own map, as without
+  /// this call. Cost: reads and decodes the whole map, then the field of every tile, as one piece.
+  Status load_map(MapStore& store) {
+    LocaliserCore& localiser = localiser_.core();
+    Status status = store.begin_load(localiser.restorable_map());
+    if (is_ok(status)) {
+      do { status = store.step(1); } while (status == Status::not_ready);
+    }
+    return is_ok(status) ? localiser.localise_in_restored_map() : status;
   }
   [[nodiscard]] Timestamp next_frame() const { return executive_.next_release(); }
   /// Runs the tasks of the frame that is due. `not_ready`: none is.

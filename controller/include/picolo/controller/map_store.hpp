@@ -28,7 +28,8 @@ class MapStore {
  public:
   explicit MapStore(ByteStore& medium, const MapStoreConfig& config = {});
 
-  /// Begins to load the newest whole map into `map`, which outlives the loading. `not_ready`: there
+  /// Begins to load the newest whole map into `map`, which outlives the loading. It is read twice:
+  /// `map` is untouched until all of it is known to be whole. `not_ready`: there
   /// is none; `corrupt`: headers, but none is whole; `unsupported`: a newer version has written
   /// here; `invalid_argument`: the slots do not fit the medium, or the stored map has other cells
   /// than this one; `full`: work is under way; `io_error`: the medium failed. Cost: reads two
@@ -38,10 +39,10 @@ class MapStore {
   Status begin_save(const RollingMapCore& map);
 
   /// At most one erase, or `max_pieces` pieces of kPieceSize bytes. `not_ready`: call again; `ok`:
-  /// done. Of a load, `corrupt`: neither slot is whole, the map is to be reset. Of a save, `full`:
-  /// the slot is too small; `out_of_range`: the map's window moved, begin again; `corrupt`: what
-  /// was read back differs. `io_error`: the medium failed. After each of these the old map still
-  /// counts.
+  /// done. Of a load, `corrupt`: neither slot is whole, the map is untouched; `io_error` may leave
+  /// half a map. Of a save, `full`: the slot is too small; `out_of_range`: the map's window moved,
+  /// begin again; `corrupt`: what was read back differs. `io_error`: the medium failed. After each
+  /// of these the old map still counts.
   Status step(std::size_t max_pieces);
   [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
   /// Of the map loaded or saved last.
@@ -58,10 +59,11 @@ class MapStore {
   Status survey();
   Status abandon(Status status);
   Status load_piece();
+  Status after_check();
   Status write_piece();
   Status verify_piece();
   Status commit();
-  Status start_loading(std::size_t slot);
+  Status start_checking(std::size_t slot);
   [[nodiscard]] std::size_t newest() const;
   [[nodiscard]] std::size_t slot_address(std::size_t slot) const {
     return address_ + slot * slot_size_;

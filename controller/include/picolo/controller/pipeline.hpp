@@ -53,6 +53,9 @@ struct MatchVerdict {
   float inlier_share = 0.0F;  ///< of the points; 1 for the first sweep, which founds the map
 };
 
+/// What the health monitor is told of a match that was not accepted.
+[[nodiscard]] HealthReason why_rejected(MatchOutcome outcome);
+
 /// One sweep at a time goes through undistortion, match and map update; a newer one waits in the
 /// assembler and replaces what waits there. Cost: each call bounded by its argument. Context: cycle
 /// only.

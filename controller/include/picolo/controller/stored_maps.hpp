@@ -12,7 +12,8 @@
 namespace picolo::inline v0 {
 
 /// Slot 0 is the one map that a MapStore keeps. A loaded map is localised in and not changed any
-/// more; a load that fails half-way leaves an empty one. Context: cycle only.
+/// more; a stored one that is not whole leaves the
+/// present one, a medium that fails half-way an empty one. Context: cycle only.
 class StoredMaps final : public MapService {
  public:
   explicit StoredMaps(ByteStore& medium, const MapStoreConfig& config = {})
@@ -23,8 +24,10 @@ class StoredMaps final : public MapService {
   Status step(LocaliserCore& localiser) override;
 
  private:
+  enum class Job : std::uint8_t { save, load, adopt };
+
   MapStore store_;
-  bool loading_ = false;
+  Job job_ = Job::save;
 };
 
 }  // namespace picolo::inline v0

@@ -37,4 +37,10 @@ struct OccupancyImage {
 void write_map(const std::filesystem::path& folder, const std::string& stem,
                const OccupancyImage& map);
 
+/// The map a YAML file of ROS's map_server describes, by its rules: modes trinary, scale and raw,
+/// negate, thresholds; what is neither occupied nor free is unknown. The image is a PGM (P2 or P5),
+/// its path relative to the YAML file. Throws UserError (input) with file and line; a turned origin
+/// is refused.
+[[nodiscard]] OccupancyImage read_map(const std::filesystem::path& yaml);
+
 }  // namespace picolo::host

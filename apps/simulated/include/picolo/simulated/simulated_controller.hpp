@@ -68,6 +68,7 @@ class SimulatedController {
 
   [[nodiscard]] sim::Simulation& simulation() { return simulation_; }
   [[nodiscard]] const sim::Simulation& simulation() const { return simulation_; }
+  [[nodiscard]] Type& controller() { return controller_; }
   [[nodiscard]] const Type& controller() const { return controller_; }
   [[nodiscard]] const CanopenWheels& wheels() const { return wheels_; }
   [[nodiscard]] const Ld06& lidar() const { return lidar_; }

@@ -128,10 +128,14 @@ class LocaliserCore {
   /// While held, accepted matches correct the pose but no sweep enters the map: what is seen from a
   /// pose that is in doubt would be believed for ever. The first sweep founds the map all the same.
   void hold_map(bool held) { map_held_ = held; }
-  /// Takes over the map that the caller has restored into `restorable_map`: from now on no sweep
-  /// founds or changes it, and its window stays. Afterwards `set_pose`, then sweeps as ever.
-  /// `invalid_argument`: a sweep is being worked on. Cost: O(cells) and the whole field, as one
-  /// piece: for start-up.
+  /// Takes over the map that the caller has restored into `restorable_map`: from then on no sweep
+  /// founds or changes it, and its window stays. In slices: `begin_adopting`, then `adopt_step`
+  /// until it returns true; no sweep may begin meanwhile. Afterwards `set_pose`, then sweeps as
+  /// ever. `invalid_argument`: a sweep is being worked on.
+  Status begin_adopting();
+  /// Cost: `max_tiles` rows of the coarse map, or tiles of the field.
+  bool adopt_step(int max_tiles);
+  /// All slices at once, for start-up.
   Status localise_in_restored_map();
   [[nodiscard]] RollingMapCore& restorable_map() { return fine_; }
   [[nodiscard]] bool localises_only() const { return localises_only_; }
@@ -196,6 +200,7 @@ class LocaliserCore {
   bool adding_hits_ = false;
   bool map_held_ = false;
   bool localises_only_ = false;
+  int adopted_rows_ = -1;  // of the coarse map; -1: no map is being adopted
   std::size_t next_point_ = 0;
   LocaliserCounters counters_{};
 };

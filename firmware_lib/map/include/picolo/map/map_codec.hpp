@@ -63,9 +63,11 @@ class MapEncoder {
 /// The other way round, bytes in pieces of any size. Context: that of the map.
 class MapDecoder {
  public:
+  /// Same cell size, same limit of what is an obstacle.
+  [[nodiscard]] static bool fits(const MapHeader& header, const RollingMapCore& target);
   /// Places the target's window: as the header says when the sizes are equal, otherwise so that the
   /// centres agree; cells outside of it are left out. The target outlives the decoding.
-  /// `invalid_argument`: another cell size or another limit of what is an obstacle.
+  /// `invalid_argument`: it does not fit.
   Status begin(const MapHeader& header, RollingMapCore& target);
   /// `ok`: go on, or `complete`. `corrupt`: no such tokens, or more cells than the window has.
   /// Cost: O(cells covered).
@@ -89,7 +91,9 @@ class MapDecoder {
 
 /// Log-odds of a coarser grid from those of a finer one: a coarse cell is as occupied as its most
 /// occupied known cell. Precondition: the coarse cell size is a whole multiple of the fine one's.
-/// Cost: O(cells of the fine grid).
-void restore_coarse(const RollingMapCore& fine, RollingMapCore& coarse);
+/// Begins with `place_coarse`, then rows of the coarse grid in any order. Cost of a row: its fine
+/// cells.
+void place_coarse(const RollingMapCore& fine, RollingMapCore& coarse);
+void restore_coarse_row(const RollingMapCore& fine, RollingMapCore& coarse, int row);
 
 }  // namespace picolo::inline v0

@@ -66,7 +66,7 @@ TEST_P(CanFaults, ErrorFramesBecomeTheStateOfTheBusAndNothingElse) {
 TEST_P(CanFaults, AnInterfaceThatGoesDownAndUpIsNoticedBothTimes) {
   open();
   lose_interface("/sbin/ip link set " + GetParam().port + " down");
-  shell("/sbin/ip link set " + GetParam().port + " up");
+  set_link("up");
   expect_back();
   EXPECT_EQ(bus.counters().reopened, 0U);
 }
@@ -88,6 +88,15 @@ TEST_P(CanFaults, AnInterfaceThatIsNotThereYetIsWaitedFor) {
   EXPECT_EQ(bus.open(GetParam().port.c_str()), Status::disconnected);
   EXPECT_EQ(bus.receive().status(), Status::disconnected);
   shell(GetParam().make);
+  expect_back();
+}
+
+TEST_P(CanFaults, AnInterfaceThatIsDownAtTheStartIsWaitedFor) {
+  set_link("down");
+  EXPECT_EQ(bus.open(GetParam().port.c_str()), Status::ok);
+  EXPECT_EQ(bus.receive().status(), Status::disconnected);
+  EXPECT_EQ(bus.status().state, CanState::absent);
+  set_link("up");
   expect_back();
 }
 

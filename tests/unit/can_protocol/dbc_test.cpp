@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <fstream>
 
-#include "dbc_reader.hpp"
+#include "support/dbc_reader.hpp"
 #include "picolo/calibration/parameter.hpp"
 #include "picolo/host/can_protocol.hpp"
 #include "picolo/localisation/event_ring.hpp"

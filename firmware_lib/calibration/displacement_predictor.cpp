@@ -43,6 +43,12 @@ double dot(const std::array<double, 4>& a, const std::array<double, 4>& b) {
 
 }  // namespace
 
+void DisplacementPredictor::reset() {
+  system_.reset();
+  solution_.fill(0.0);
+  covariance_.fill(0.0);
+}
+
 void DisplacementPredictor::add(const RotationGain& gain, const MotionSample& sample) {
   const Rows rows = rows_of(gain, sample);
   // Finite by the caller's check; a row that is not is refused and leaves the sums alone.

@@ -76,70 +76,142 @@ double median_residual(std::span<const MotionSample> samples, const RotationGain
 
 }  // namespace
 
-Status JointStreaming::add(const MotionSample& sample) {
+Status JointStreaming::offer(const MotionSample& sample) {
   const Pose2d& s = sample.lidar_motion;
   if (!(sample.duration_s > 0.0) || !is_finite(sample.duration_s) ||
       !is_finite(sample.left_radps) || !is_finite(sample.right_radps) || !is_finite(s.x_m) ||
       !is_finite(s.y_m) || !is_finite(s.theta_rad)) {
     return Status::invalid_argument;
   }
-  if (samples_ < kWarmUp) { waiting_[static_cast<std::size_t>(samples_)] = sample; }
+  if (held_ == waiting_.size()) { return Status::full; }
+  waiting_[(oldest_ + held_) % waiting_.size()] = sample;
+  ++held_;
   ++samples_;
-  if (samples_ == kWarmUp) {
-    warm_up();
-  } else if (samples_ > kWarmUp) {
-    consume(sample);
-  }
   return Status::ok;
 }
 
-void JointStreaming::warm_up() {
-  std::array<double, kWarmUp> work{};
-  RotationGain gain = ridge_gain(waiting_, {}, 1e9);
-  double median = median_residual(waiting_, gain, work);
-  for (int round = 0; round < 4; ++round) {
-    gain = ridge_gain(waiting_, gain, 4.0 * kMedianToSigma * median + 1e-6);
-    median = median_residual(waiting_, gain, work);
+Status JointStreaming::add(const MotionSample& sample) {
+  const Status status = offer(sample);
+  while (step()) {}
+  return status;
+}
+
+void JointStreaming::reset() {
+  // Field by field: a fresh object to copy from would need 8 KiB of stack.
+  check_ = MotionCheck{};
+  moments_.fill({});
+  reference_ = {};
+  first_gain_ = {};
+  information_translation_.fill(0.0);
+  information_rotation_.fill(0.0);
+  drive_ = {};
+  gain_ = {};
+  gain_covariance_.fill(0.0);
+  predictor_.reset();
+  solved_ = false;
+  gains_known_ = false;
+  scale_rotation_rad_ = 0.0;
+  scale_translation_m_ = 0.0;
+  samples_ = 0;
+  rejected_ = 0;
+  stage_ = Stage::gather;
+  round_ = 0;
+  next_ = 0;
+  refresh_due_ = false;
+  consumed_ = 0;
+  first_median_ = 0.0;
+  limit_ = 0.0;
+  oldest_ = 0;
+  held_ = 0;
+}
+
+bool JointStreaming::step() {
+  if (refresh_due_) {
+    refresh();
+    refresh_due_ = false;
+    return true;
   }
-  reference_ = gain;
-  first_gain_ = gain;
-  scale_rotation_rad_ = std::max(1e-6, kMedianToSigma * median);
+  switch (stage_) {
+    case Stage::gather:
+      if (held_ < kWarmUp) { return false; }
+      stage_ = Stage::noise;
+      return true;
+    case Stage::noise: noise_round(); return true;
+    case Stage::keep: keep_turns(); return true;
+    case Stage::predictor: predictor_slice(); return true;
+    case Stage::consume: break;
+  }
+  if (held_ == 0) { return false; }
+  consume_next();
+  return true;
+}
+
+void JointStreaming::noise_round() {
+  const double limit = round_ == 0 ? 1e9 : 4.0 * kMedianToSigma * first_median_ + 1e-6;
+  reference_ = ridge_gain(waiting(), reference_, limit);
+  first_median_ = median_residual(waiting(), reference_, work_);
+  ++round_;
+  if (round_ < kNoiseRounds) { return; }
+  first_gain_ = reference_;
+  scale_rotation_rad_ = std::max(1e-6, kMedianToSigma * first_median_);
+  stage_ = Stage::keep;
+}
+
+void JointStreaming::keep_turns() {
   // While those that waited pass the gate, it stands where all of them together put it.
   MotionCheck kept;
-  for (const MotionSample& sample : waiting_) {
+  for (const MotionSample& sample : waiting()) {
     const Turns turn = turns_of(sample);
     const double error =
-        sample.lidar_motion.theta_rad - (gain.j21 * turn.left + gain.j22 * turn.right);
+        sample.lidar_motion.theta_rad - (reference_.j21 * turn.left + reference_.j22 * turn.right);
     if (magnitude(error) <= 4.0 * scale_rotation_rad_) { kept.add(sample); }
   }
   follow_gain(kept);
-  double limit = 1e9;
-  for (int round = 0; round < 5; ++round) {
-    predictor_.refresh();
-    DisplacementPredictor next;
-    for (std::size_t k = 0; k < kWarmUp; ++k) {
-      const auto judged = predictor_.judge(gain_, waiting_[k]);
-      work[k] = hypotenuse(judged.x_m, judged.y_m);
-      if (work[k] <= limit) { next.add(gain_, waiting_[k]); }
-    }
-    predictor_ = next;
-    std::sort(work.begin(), work.end());
-    limit = 3.5 * work[kWarmUp / 2];
-  }
+  limit_ = 1e9;
+  round_ = 0;
+  next_ = 0;
   predictor_.refresh();
-  scale_translation_m_ = std::max(1e-6, work[kWarmUp / 2] / kMedianToRayleigh);
-  for (const MotionSample& sample : waiting_) { consume(sample); }
-  refresh();
+  stage_ = Stage::predictor;
+}
+
+void JointStreaming::predictor_slice() {
+  if (next_ == 0) { next_predictor_.reset(); }
+  const std::size_t end = std::min(kWarmUp, next_ + kSamplesPerSlice);
+  for (; next_ < end; ++next_) {
+    const auto judged = predictor_.judge(gain_, waiting_[next_]);
+    work_[next_] = hypotenuse(judged.x_m, judged.y_m);
+    if (work_[next_] <= limit_) { next_predictor_.add(gain_, waiting_[next_]); }
+  }
+  if (next_ == kWarmUp) { close_predictor_round(); }
+}
+
+void JointStreaming::close_predictor_round() {
+  predictor_ = next_predictor_;
+  std::sort(work_.begin(), work_.end());
+  limit_ = 3.5 * work_[kWarmUp / 2];
+  predictor_.refresh();
+  next_ = 0;
+  ++round_;
+  if (round_ < kPredictorRounds) { return; }
+  scale_translation_m_ = std::max(1e-6, work_[kWarmUp / 2] / kMedianToRayleigh);
+  stage_ = Stage::consume;
+}
+
+void JointStreaming::consume_next() {
+  const MotionSample sample = waiting_[oldest_];
+  oldest_ = (oldest_ + 1) % waiting_.size();
+  --held_;
+  ++consumed_;
+  consume(sample);
+  refresh_due_ = consumed_ == kWarmUp || (consumed_ > kWarmUp && consumed_ % 4 == 0);
 }
 
 void JointStreaming::consume(const MotionSample& sample) {
-  const bool good = passes(sample);
-  if (good) {
+  if (passes(sample)) {
     accumulate(sample);
   } else {
     ++rejected_;
   }
-  if (samples_ > kWarmUp && samples_ % 4 == 0) { refresh(); }
 }
 
 bool JointStreaming::passes(const MotionSample& sample) {
@@ -166,7 +238,7 @@ bool JointStreaming::passes(const MotionSample& sample) {
 
 void JointStreaming::accumulate(const MotionSample& sample) {
   check_.add(sample);
-  if (samples_ > kWarmUp && gains_known_) {
+  if (consumed_ > kWarmUp && gains_known_) {
     predictor_.add(gain_, sample);
   }  // those that waited are in it already
   const Turns turn = turns_of(sample);
@@ -245,14 +317,14 @@ void JointStreaming::refresh() {
   solved_ = true;
 }
 
-Status JointStreaming::solve(JointReport& report) const {
+Status JointStreaming::solve(JointReport& report, bool with_condition) const {
   report = JointReport{};
   report.samples = samples_;
   report.used = check_.samples();
-  if (samples_ < kWarmUp) {  // nothing has passed the gate: judge what waits
-    MotionCheck waiting;
-    for (std::size_t k = 0; k < samples_; ++k) { waiting.add(waiting_[k]); }
-    report.refusal = waiting.judge(config_.needs);
+  if (stage_ != Stage::consume) {  // nothing has passed the gate: judge what waits
+    MotionCheck seen;
+    for (const MotionSample& sample : waiting()) { seen.add(sample); }
+    report.refusal = seen.judge(config_.needs);
     if (!report.refusal) {
       report.refusal = {RefusalReason::too_little_data, Parameter::track_width};
     }
@@ -272,7 +344,10 @@ Status JointStreaming::solve(JointReport& report) const {
     information[k] = information_translation_[k] / (scale_translation_m_ * scale_translation_m_) +
                      information_rotation_[k] / (scale_rotation_rad_ * scale_rotation_rad_);
   }
-  if (!is_ok(covariance_of(information, report.covariance, report.condition))) {
+  const Status inverted = with_condition
+                              ? covariance_of(information, report.covariance, report.condition)
+                              : invert_symmetric(information, report.covariance);
+  if (!is_ok(inverted)) {
     return refuse(RefusalReason::numerically_singular, Parameter::lidar_yaw);
   }
   report.inlier_covariance = report.covariance;

@@ -43,6 +43,7 @@ const char* to_string(RefusalReason reason) {
     case RefusalReason::inconsistent: return "fresh data contradicts the solution";
     case RefusalReason::aborted: return "aborted";
     case RefusalReason::numerically_singular: return "the data does not determine the solution";
+    case RefusalReason::not_stored: return "the storage did not take it";
   }
   return "unknown";
 }

@@ -24,6 +24,25 @@ TimeOffsetCore::TimeOffsetCore(const TimeOffsetConfig& config, std::span<LagSums
                                std::span<WheelAngles> history, std::span<RotationInterval> waiting)
     : config_(config), lags_(lags), history_(history), waiting_(waiting) {}
 
+void TimeOffsetCore::reset() {
+  std::fill(lags_.begin(), lags_.end(), LagSums{});
+  next_ = 0;
+  size_ = 0;
+  waiting_first_ = 0;
+  waiting_size_ = 0;
+  tt_ = 0.0;
+  td_ = 0.0;
+  dd_ = 0.0;
+  intervals_ = 0;
+  dropped_ = 0;
+  rejected_ = 0;
+  gate_fit_ = {};
+  gate_lag_ = 0;
+  gate_explained_ = 0.0;
+  gate_median_ = 0.0;
+  open_ = false;
+}
+
 double TimeOffsetCore::lag_s(std::size_t index) const {
   const std::size_t middle = lags_.size() / 2;
   const auto half = static_cast<double>(middle);
@@ -50,20 +69,35 @@ WheelAngles TimeOffsetCore::at(double stamp_s) const {
 }
 
 Status TimeOffsetCore::add_wheels(const WheelAngles& angles) {
+  const Status status = offer_wheels(angles);
+  while (step(lags_.size())) {}
+  return status;
+}
+
+Status TimeOffsetCore::add_rotation(double begin_s, double end_s, double theta_rad) {
+  const Status status = offer_rotation(begin_s, end_s, theta_rad);
+  while (step(lags_.size())) {}
+  return status;
+}
+
+Status TimeOffsetCore::offer_wheels(const WheelAngles& angles) {
   if (!is_finite(angles.stamp_s) || !is_finite(angles.left_rad) || !is_finite(angles.right_rad)) {
     return Status::invalid_argument;
   }
   if (size_ > 0 && !(angles.stamp_s > by_age(size_ - 1).stamp_s)) { return Status::out_of_range; }
-  // What waits must be served before its past is overwritten.
-  drain();
+  // What is half served must be finished before its past is overwritten.
+  const bool overwrites = size_ == history_.size();
+  while (open_ && overwrites &&
+         waiting_[waiting_first_].begin_s - config_.max_offset_s < by_age(1).stamp_s) {
+    step(lags_.size());
+  }
   history_[next_] = angles;
   next_ = (next_ + 1) % history_.size();
   size_ = std::min(size_ + 1, history_.size());
-  drain();
   return Status::ok;
 }
 
-Status TimeOffsetCore::add_rotation(double begin_s, double end_s, double theta_rad) {
+Status TimeOffsetCore::offer_rotation(double begin_s, double end_s, double theta_rad) {
   if (!is_finite(begin_s) || !is_finite(end_s) || !is_finite(theta_rad) || !(end_s > begin_s)) {
     return Status::invalid_argument;
   }
@@ -73,21 +107,83 @@ Status TimeOffsetCore::add_rotation(double begin_s, double end_s, double theta_r
   }
   waiting_[(waiting_first_ + waiting_size_) % waiting_.size()] = {begin_s, end_s, theta_rad};
   ++waiting_size_;
-  drain();
   return Status::ok;
 }
 
-void TimeOffsetCore::drain() {
-  while (waiting_size_ > 0 && size_ >= 2) {
-    const RotationInterval& oldest = waiting_[waiting_first_];
-    if (oldest.end_s + config_.max_offset_s > by_age(size_ - 1).stamp_s) { return; }
-    if (oldest.begin_s - config_.max_offset_s < by_age(0).stamp_s) {
-      ++dropped_;
-    } else {
-      consume(oldest);
-    }
+Status TimeOffsetCore::wheels_at(double stamp_s, WheelAngles& angles) const {
+  if (size_ < 2 || stamp_s > by_age(size_ - 1).stamp_s) { return Status::not_ready; }
+  if (stamp_s < by_age(0).stamp_s) { return Status::out_of_range; }
+  angles = at(stamp_s);
+  return Status::ok;
+}
+
+bool TimeOffsetCore::step(std::size_t max_lags) {
+  if (!open_) { return open_next(); }
+  const std::size_t end = std::min(lags_.size(), next_lag_ + max_lags);
+  for (; next_lag_ < end; ++next_lag_) { add_to_lag(next_lag_); }
+  if (next_lag_ == lags_.size()) { close(); }
+  return true;
+}
+
+/// Takes the oldest interval in hand, or drops it; false when it must wait on.
+bool TimeOffsetCore::open_next() {
+  if (waiting_size_ == 0 || size_ < 2) { return false; }
+  const RotationInterval& oldest = waiting_[waiting_first_];
+  if (oldest.end_s + config_.max_offset_s > by_age(size_ - 1).stamp_s) { return false; }
+  const bool forgotten = oldest.begin_s - config_.max_offset_s < by_age(0).stamp_s;
+  const bool outlier = !forgotten && is_outlier(oldest);
+  if (forgotten || outlier) {
+    ++(forgotten ? dropped_ : rejected_);
     waiting_first_ = (waiting_first_ + 1) % waiting_.size();
     --waiting_size_;
+    return true;
+  }
+  const double duration = oldest.end_s - oldest.begin_s;
+  tt_ += oldest.theta_rad * oldest.theta_rad;
+  td_ += oldest.theta_rad * duration;
+  dd_ += duration * duration;
+  ++intervals_;
+  next_lag_ = 0;
+  looking_ = intervals_ >= config_.min_intervals && intervals_ % 8 == 0;
+  open_ = true;
+  return true;
+}
+
+void TimeOffsetCore::add_to_lag(std::size_t index) {
+  const RotationInterval& interval = waiting_[waiting_first_];
+  const double duration = interval.end_s - interval.begin_s;
+  const WheelAngles begin = at(interval.begin_s - lag_s(index));
+  const WheelAngles end = at(interval.end_s - lag_s(index));
+  const double left = end.left_rad - begin.left_rad;
+  const double right = end.right_rad - begin.right_rad;
+  LagSums& sums = lags_[index];
+  sums.ll += left * left;
+  sums.lr += left * right;
+  sums.rr += right * right;
+  sums.lt += left * interval.theta_rad;
+  sums.rt += right * interval.theta_rad;
+  sums.ld += left * duration;
+  sums.rd += right * duration;
+  if (!looking_) { return; }
+  const Fit candidate = fit(index);
+  if (index == 0 || candidate.squares < looked_fit_.squares) {
+    looked_fit_ = candidate;
+    looked_lag_ = index;
+  }
+}
+
+void TimeOffsetCore::close() {
+  open_ = false;
+  waiting_first_ = (waiting_first_ + 1) % waiting_.size();
+  --waiting_size_;
+  if (!looking_) { return; }
+  gate_lag_ = looked_lag_;
+  gate_fit_ = looked_fit_;
+  const double around_drift = tt_ - td_ * td_ / dd_;
+  gate_explained_ = around_drift > 0.0 ? 1.0 - gate_fit_.squares / around_drift : 0.0;
+  if (gate_median_ == 0.0) {
+    gate_median_ =
+        square_root(std::max(1e-12, gate_fit_.squares / static_cast<double>(intervals_)));
   }
 }
 
@@ -113,18 +209,6 @@ bool TimeOffsetCore::is_outlier(const RotationInterval& interval) {
   return nearest > 6.0 * gate_median_;
 }
 
-void TimeOffsetCore::follow_gate() {
-  if (intervals_ < config_.min_intervals || intervals_ % 8 != 0) { return; }
-  const double noise_before = gate_median_;
-  gate_lag_ = best_lag(gate_fit_);
-  const double around_drift = tt_ - td_ * td_ / dd_;
-  gate_explained_ = around_drift > 0.0 ? 1.0 - gate_fit_.squares / around_drift : 0.0;
-  if (noise_before == 0.0) {
-    gate_median_ =
-        square_root(std::max(1e-12, gate_fit_.squares / static_cast<double>(intervals_)));
-  }
-}
-
 std::size_t TimeOffsetCore::best_lag(Fit& least) const {
   std::size_t best = 0;
   least = fit(0);
@@ -136,34 +220,6 @@ std::size_t TimeOffsetCore::best_lag(Fit& least) const {
     }
   }
   return best;
-}
-
-void TimeOffsetCore::consume(const RotationInterval& interval) {
-  if (is_outlier(interval)) {
-    ++rejected_;
-    return;
-  }
-  const double theta = interval.theta_rad;
-  const double duration = interval.end_s - interval.begin_s;
-  for (std::size_t k = 0; k < lags_.size(); ++k) {
-    const WheelAngles begin = at(interval.begin_s - lag_s(k));
-    const WheelAngles end = at(interval.end_s - lag_s(k));
-    const double left = end.left_rad - begin.left_rad;
-    const double right = end.right_rad - begin.right_rad;
-    LagSums& sums = lags_[k];
-    sums.ll += left * left;
-    sums.lr += left * right;
-    sums.rr += right * right;
-    sums.lt += left * theta;
-    sums.rt += right * theta;
-    sums.ld += left * duration;
-    sums.rd += right * duration;
-  }
-  tt_ += theta * theta;
-  td_ += theta * duration;
-  dd_ += duration * duration;
-  ++intervals_;
-  follow_gate();
 }
 
 TimeOffsetCore::Fit TimeOffsetCore::fit(std::size_t lag) const {
@@ -180,6 +236,30 @@ TimeOffsetCore::Fit TimeOffsetCore::fit(std::size_t lag) const {
 }
 
 Status TimeOffsetCore::solve(TimeOffsetReport& report) const {
+  Fit least;
+  const std::size_t best = best_lag(least);
+  return solve_at(best, least, report);
+}
+
+Status TimeOffsetCore::solve_nearby(TimeOffsetReport& report) const {
+  std::size_t best = gate_lag_;
+  Fit least = fit(best);
+  for (const bool upwards : {true, false}) {
+    for (;;) {
+      const bool at_end = upwards ? best + 1 >= lags_.size() : best == 0;
+      if (at_end) { break; }
+      const std::size_t next = upwards ? best + 1 : best - 1;
+      const Fit candidate = fit(next);
+      if (!(candidate.squares < least.squares)) { break; }
+      best = next;
+      least = candidate;
+    }
+  }
+  return solve_at(best, least, report);
+}
+
+Status TimeOffsetCore::solve_at(std::size_t best, const Fit& least,
+                                TimeOffsetReport& report) const {
   report = TimeOffsetReport{};
   report.intervals = intervals_;
   report.rejected = rejected_;
@@ -188,8 +268,6 @@ Status TimeOffsetCore::solve(TimeOffsetReport& report) const {
     return Status::degenerate;
   };
   if (intervals_ < config_.min_intervals) { return refuse(RefusalReason::too_little_data); }
-  Fit least;
-  const std::size_t best = best_lag(least);
   const double n = static_cast<double>(intervals_);
   const double around_drift = tt_ - td_ * td_ / dd_;  // what a constant rate leaves to be explained
   report.explained = around_drift > 0.0 ? 1.0 - least.squares / around_drift : 0.0;

@@ -138,7 +138,7 @@ TEST(SwingMeter, SumsEachWay) {
 
 TEST(Names, EveryParameterAndReasonHasOne) {
   for (int k = 0; k <= 12; ++k) { EXPECT_STRNE(to_string(static_cast<Parameter>(k)), "unknown"); }
-  for (int k = 0; k <= 14; ++k) {
+  for (int k = 0; k <= 15; ++k) {
     EXPECT_STRNE(to_string(static_cast<RefusalReason>(k)), "unknown");
   }
   EXPECT_STREQ(to_string(static_cast<Parameter>(200)), "unknown");

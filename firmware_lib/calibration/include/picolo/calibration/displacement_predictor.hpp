@@ -18,7 +18,7 @@ namespace picolo::inline v0 {
 /// multiplications; of `refresh`: a 4x4 inverse. Context: one at a time.
 class DisplacementPredictor {
  public:
-  void reset() { system_.reset(); }
+  void reset();
   void add(const RotationGain& gain, const MotionSample& sample);
   /// Solves for what has been added, with a prior that keeps what has not been seen at zero.
   void refresh();

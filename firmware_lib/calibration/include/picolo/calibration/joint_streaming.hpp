@@ -5,9 +5,11 @@
 /// vehicle drives.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "picolo/calibration/displacement_predictor.hpp"
 #include "picolo/calibration/joint_batch.hpp"
@@ -35,28 +37,53 @@ struct JointStreamingConfig {
 /// as polynomials around a reference gain and evaluated where the gains come to lie. Each sample
 /// passes a chi-square gate against the present solution; the noise behind the gate is the running
 /// median of residuals, so a wrong start heals itself. The first 64 samples wait for a first noise
-/// level. State: see `sizeof`, about 6 KiB, whatever the number of samples. Cost of `add`: one
-/// sin_cos and some 400 multiplications, every fourth sample a 4x4 inverse; the 64th sample works
-/// on all 64 that waited. Context: one at a time.
+/// level. State: see `sizeof`, under 8 KiB, whatever the number of samples. Context: one at a time.
+///
+/// In a cycle: `offer` each sample, then `step` as long as there is time. Cost of `offer`: a copy;
+/// of a `step`: at most about 2000 floating-point operations.
 class JointStreaming {
  public:
   explicit JointStreaming(const JointStreamingConfig& config = {}) : config_(config) {}
 
-  /// `invalid_argument`: a number that is not finite, or no duration; not counted.
+  /// Keeps the sample for `step`. `invalid_argument`: a number that is not finite, or no duration;
+  /// not counted. `full`: more than kQueue wait beyond the first 64; dropped and not counted.
+  Status offer(const MotionSample& sample);
+  /// One slice of work. False when there is nothing to do.
+  bool step();
+  /// Forgets every sample.
+  void reset();
+  /// `offer`, and all the steps that follow from it.
   Status add(const MotionSample& sample);
-  /// The solution now. `degenerate` with a refusal when the drive does not suffice yet; `drive`
-  /// holds what could be computed. `covariance` and `inlier_covariance` are the same: noise of the
-  /// samples behind the gate.
-  Status solve(JointReport& report) const;
+
+  /// The solution now, of what the steps have come to. `degenerate` with a refusal when the drive
+  /// does not suffice yet; `drive` holds what could be computed. `covariance` and
+  /// `inlier_covariance` are the same: noise of the samples behind the gate. Cost: a Jacobi SVD of
+  /// 6x6 for the condition number, about 10 000 operations; without it some 1500.
+  Status solve(JointReport& report, bool with_condition = true) const;
   [[nodiscard]] const MotionCheck& check() const { return check_; }
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
   [[nodiscard]] std::uint64_t rejected() const { return rejected_; }
 
+  static constexpr std::size_t kQueue = 16;
+
  private:
   static constexpr std::size_t kWarmUp = 64;
+  static constexpr std::size_t kNoiseRounds = 5;
+  static constexpr std::size_t kPredictorRounds = 5;
+  static constexpr std::size_t kSamplesPerSlice = 4;
+  /// gather until 64 wait; rotation noise; which turns to keep; displacement noise; then one by
+  /// one.
+  enum class Stage : std::uint8_t { gather, noise, keep, predictor, consume };
 
-  void warm_up();
+  void noise_round();
+  void keep_turns();
+  void predictor_slice();
+  void close_predictor_round();
+  void consume_next();
   void consume(const MotionSample& sample);
+  [[nodiscard]] std::span<const MotionSample> waiting() const {
+    return std::span<const MotionSample>{waiting_}.first(std::min(held_, kWarmUp));
+  }
   void follow_gain(const MotionCheck& seen);
   void refresh();
   [[nodiscard]] bool passes(const MotionSample& sample);
@@ -80,7 +107,18 @@ class JointStreaming {
   double scale_translation_m_ = 0.0;
   std::uint64_t samples_ = 0;
   std::uint64_t rejected_ = 0;
-  std::array<MotionSample, kWarmUp> waiting_{};
+  Stage stage_ = Stage::gather;
+  std::size_t round_ = 0;
+  std::size_t next_ = 0;  // of the present round
+  bool refresh_due_ = false;
+  std::uint64_t consumed_ = 0;
+  double first_median_ = 0.0;
+  double limit_ = 0.0;
+  DisplacementPredictor next_predictor_{};
+  std::array<double, kWarmUp> work_{};
+  std::array<MotionSample, kWarmUp + kQueue> waiting_{};  // a ring from the 65th on
+  std::size_t oldest_ = 0;
+  std::size_t held_ = 0;
 };
 
 }  // namespace picolo::inline v0

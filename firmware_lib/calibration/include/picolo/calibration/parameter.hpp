@@ -42,6 +42,7 @@ enum class RefusalReason : std::uint8_t {
   inconsistent = 12,         ///< fresh data contradicts the solution
   aborted = 13,
   numerically_singular = 14,  ///< none of the above, but the solution is not determined
+  not_stored = 15,            ///< the storage failed, or a newer version has written there
 };
 
 /// none: accepted. Otherwise the reason and the first parameter that cannot be told.

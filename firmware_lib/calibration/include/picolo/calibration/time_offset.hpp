@@ -68,7 +68,9 @@ struct RotationInterval {
 /// integrated over the shifted interval and regressed on the rotation seen; the residual as a
 /// function of the lag is least at the offset, and its curvature says how well it is known. Gains
 /// and drift are refitted at each lag, so neither needs to be calibrated before.
-/// Cost: `add_wheels` O(1); `add_rotation` O(lags log history). Context: one at a time.
+/// Cost: `add_wheels` and `add_rotation` O(lags log history) for each interval that can be served.
+/// In a cycle: `offer_wheels`, `offer_rotation`, then `step` as long as there is time; all three
+/// bounded. Context: one at a time.
 class TimeOffsetCore {
  public:
   /// Precondition: lags.size() odd and >= 5; history.size() >= 4; waiting not empty.
@@ -80,8 +82,26 @@ class TimeOffsetCore {
   /// Rotation seen between two stamps of the second sensor. `full`: more intervals wait for wheels
   /// than there is room; dropped.
   Status add_rotation(double begin_s, double end_s, double theta_rad);
-  /// `degenerate` with a refusal when the data does not show the offset.
+  /// As `add_wheels`, without work on intervals unless one would lose its past.
+  Status offer_wheels(const WheelAngles& angles);
+  /// As `add_rotation`, without work on intervals.
+  Status offer_rotation(double begin_s, double end_s, double theta_rad);
+  /// Works on at most `max_lags` lags of the oldest interval. False when nothing can be done. Cost:
+  /// some 150 operations a lag; the first call of an interval judges it by the lags within 0.1 s.
+  bool step(std::size_t max_lags);
+  /// An interval is half served: `solve` waits for the rest of it.
+  [[nodiscard]] bool busy() const { return open_; }
+  /// Forgets wheels and intervals.
+  void reset();
+  /// The wheels at an instant of the history. `not_ready`: not reached yet; `out_of_range`:
+  /// forgotten.
+  Status wheels_at(double stamp_s, WheelAngles& angles) const;
+
+  /// `degenerate` with a refusal when the data does not show the offset. Cost: a 3x3 solution for
+  /// each lag; `solve_nearby` looks only around the best lag of the last full look (at most eight
+  /// intervals ago) and costs seven of them or a few more.
   Status solve(TimeOffsetReport& report) const;
+  Status solve_nearby(TimeOffsetReport& report) const;
   /// Intervals dropped because the wheels' history did not reach back to them, or because too many
   /// waited.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
@@ -97,9 +117,10 @@ class TimeOffsetCore {
   [[nodiscard]] Fit fit(std::size_t lag) const;
   [[nodiscard]] std::size_t best_lag(Fit& least) const;
   [[nodiscard]] bool is_outlier(const RotationInterval& interval);
-  void follow_gate();
-  void consume(const RotationInterval& interval);
-  void drain();
+  [[nodiscard]] Status solve_at(std::size_t best, const Fit& least, TimeOffsetReport& report) const;
+  [[nodiscard]] bool open_next();
+  void add_to_lag(std::size_t index);
+  void close();
 
   TimeOffsetConfig config_;
   std::span<LagSums> lags_;
@@ -117,6 +138,11 @@ class TimeOffsetCore {
   std::size_t gate_lag_ = 0;
   double gate_explained_ = 0.0;
   double gate_median_ = 0.0;
+  bool open_ = false;  // the oldest waiting interval has been added to lags before next_lag_
+  std::size_t next_lag_ = 0;
+  bool looking_ = false;  // in this pass each lag is fitted as well
+  Fit looked_fit_{};
+  std::size_t looked_lag_ = 0;
 };
 
 /// Storage: 56 bytes a lag, 24 a wheel sample, 24 a waiting interval. History must span 2

@@ -29,9 +29,8 @@ void AngleHistoryCore::add(double stamp_s, double rate_radps) {
 }
 
 Result<double> AngleHistoryCore::at(double stamp_s) const {
-  if (size_ < 2 || stamp_s < by_age(0).stamp_s || stamp_s > by_age(size_ - 1).stamp_s) {
-    return Status::out_of_range;
-  }
+  if (size_ < 2 || stamp_s > by_age(size_ - 1).stamp_s) { return Status::not_ready; }
+  if (stamp_s < by_age(0).stamp_s) { return Status::out_of_range; }
   std::size_t low = 0;
   std::size_t high = size_ - 1;
   while (high - low > 1) {

@@ -180,7 +180,12 @@ DriveAdvice CalibrationRoutine::choose_advice() const {
   const double travel = seen.wheel_travel_rad() / needs.wheel_travel_rad;
   if (less < needs.turn_each_way_rad && less / needs.turn_each_way_rad <= travel) { return turn; }
   if (travel < 1.0) { return DriveAdvice::drive_straight; }
-  if (less < needs.turn_each_way_rad || seen.arc_spread() < needs.min_arc_spread) { return turn; }
+  // Long straights hide the turns that were driven: neither is to outweigh the other.
+  constexpr double kMostlyStraight = 0.9;
+  if (less < needs.turn_each_way_rad || seen.arc_spread() < needs.min_arc_spread ||
+      seen.speed_share() > kMostlyStraight) {
+    return turn;
+  }
   std::size_t least = 1;
   for (std::size_t k = 2; k <= static_cast<std::size_t>(Parameter::time_offset); ++k) {
     if (percent_[k] < percent_[least]) { least = k; }

@@ -151,6 +151,16 @@ bool CalibrationRoutine::work() {
          gyro_clock_.core().step(config_.lags_per_step) || take_scan();
 }
 
+/// The gyro speaks, but has not come to the end of the scan yet.
+bool CalibrationRoutine::waits_for_gyro(const Scan& scan) const {
+  constexpr double kPatience_s = 0.3;
+  if (!gyro_heard_ || phase_ != CalibrationPhase::collect) { return false; }
+  const double end_s = scan.end_s + gyro_offset_report_.offset_s.value - used_offset_s_;
+  if (gyro_angle_.core().at(end_s).status() != Status::not_ready) { return false; }
+  WheelAngles later;
+  return lidar_clock_.core().wheels_at(scan.end_s + kPatience_s, later) == Status::not_ready;
+}
+
 bool CalibrationRoutine::take_scan() {
   if (held_ == 0) { return false; }
   const Scan scan = waiting_[first_];
@@ -159,7 +169,7 @@ bool CalibrationRoutine::take_scan() {
   // The wheels as they stood when the lidar saw, not when it said so.
   const TimeOffsetCore& wheels = lidar_clock_.core();
   const Status status = wheels.wheels_at(scan.end_s - used_offset_s_, end);
-  if (status == Status::not_ready) { return false; }
+  if (status == Status::not_ready || waits_for_gyro(scan)) { return false; }
   first_ = (first_ + 1) % kWaitingScans;
   --held_;
   const double duration_s = scan.end_s - scan.begin_s;
@@ -220,7 +230,7 @@ bool CalibrationRoutine::step(Timestamp now) {
 }
 
 void CalibrationRoutine::wait_for_standstill(Timestamp now) {
-  const bool stood = has_ticks_ && now - moved_ > kQuiet + config_.stand;
+  const bool stood = has_ticks_ && (!config_.use_gyro || now - moved_ > kQuiet + config_.stand);
   static_cast<void>(gyro_.solve(gyro_report_));
   const bool bias_known = !config_.use_gyro || !gyro_heard_ || !gyro_report_.bias_refusal;
   if (stood && bias_known) {

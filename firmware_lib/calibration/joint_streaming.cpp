@@ -112,6 +112,10 @@ void JointStreaming::reset() {
   gains_known_ = false;
   scale_rotation_rad_ = 0.0;
   scale_translation_m_ = 0.0;
+  squares_rotation_ = 0.0;
+  squares_translation_ = 0.0;
+  gated_rotation_ = 0;
+  gated_translation_ = 0;
   samples_ = 0;
   rejected_ = 0;
   stage_ = Stage::gather;
@@ -224,6 +228,10 @@ bool JointStreaming::passes(const MotionSample& sample) {
   const double spread = scale_rotation_rad_ * scale_rotation_rad_ * (1.0 + leverage);
   bool good = !(error * error > config_.gate_rotation * spread);
   follow_median(scale_rotation_rad_, magnitude(error) / square_root(1.0 + leverage));
+  if (good && consumed_ > kWarmUp) {
+    squares_rotation_ += error * error / (1.0 + leverage);
+    ++gated_rotation_;
+  }
   gains_known_ =
       leverage <
       1.0;  // else the turn is news: neither predict displacements by it nor learn from them
@@ -233,6 +241,10 @@ bool JointStreaming::passes(const MotionSample& sample) {
   good = good && !(distance * distance >
                    config_.gate_translation * scale_translation_m_ * scale_translation_m_);
   follow_median(scale_translation_m_, distance / (kMedianToRayleigh * kMedianToSigma));
+  if (good && consumed_ > kWarmUp) {
+    squares_translation_ += 0.5 * distance * distance;
+    ++gated_translation_;
+  }
   return good;
 }
 
@@ -271,6 +283,19 @@ void JointStreaming::accumulate(const MotionSample& sample) {
   constexpr double kNever = 1e150;
   add_information(information_translation_, jacobian, {1.0, 1.0, kNever});
   add_information(information_rotation_, jacobian, {kNever, kNever, 1.0});
+}
+
+Pose2d JointStreaming::noise() const {
+  constexpr std::uint64_t kEnough = 64;
+  const auto mean = [](double squares, std::uint64_t count) {
+    return std::max(1e-6, square_root(squares / static_cast<double>(count)));
+  };
+  const double translation_m = gated_translation_ < kEnough
+                                   ? scale_translation_m_
+                                   : mean(squares_translation_, gated_translation_);
+  const double rotation_rad =
+      gated_rotation_ < kEnough ? scale_rotation_rad_ : mean(squares_rotation_, gated_rotation_);
+  return {translation_m, translation_m, rotation_rad};
 }
 
 Status JointStreaming::current(RotationGain& gain, DriveParameters& drive) const {
@@ -338,11 +363,13 @@ Status JointStreaming::solve(JointReport& report, bool with_condition) const {
   if (!is_ok(current(report.gain, report.drive)) || !solved_) {
     return refuse(RefusalReason::numerically_singular, Parameter::track_width);
   }
-  report.noise = {scale_translation_m_, scale_translation_m_, scale_rotation_rad_};
+  report.noise = noise();
+  const double translation2 = report.noise.x_m * report.noise.x_m;
+  const double rotation2 = report.noise.theta_rad * report.noise.theta_rad;
   DriveMatrix information{};
   for (std::size_t k = 0; k < 36; ++k) {
-    information[k] = information_translation_[k] / (scale_translation_m_ * scale_translation_m_) +
-                     information_rotation_[k] / (scale_rotation_rad_ * scale_rotation_rad_);
+    information[k] =
+        information_translation_[k] / translation2 + information_rotation_[k] / rotation2;
   }
   const Status inverted = with_condition
                               ? covariance_of(information, report.covariance, report.condition)

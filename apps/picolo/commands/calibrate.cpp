@@ -96,6 +96,16 @@ void add_calibrate(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
 
+  CLI::App* routine = subcommand(
+      *group, "routine", "A log through the routine that runs on the target while one drives", o,
+      action, calibrate_routine_command, options);
+  take_file(*routine, o, "Log with TICKS or ENC lines and scans; IMU lines where there is a gyro");
+  routine
+      ->add_option("--collect", o.collect_share,
+                   "Share of the log to collect from; the rest verifies the solution")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1.0));
+
   subcommand(*group, "memory", "Bytes of state of every single-pass estimator", o, action,
              calibrate_memory_command, options);
 
@@ -108,6 +118,7 @@ void add_calibrate(CLI::App& app, Action& action) {
       "5000\n"
       "  picolo calibrate joint tuples.txt.gz --json\n"
       "  picolo calibrate time-offset drive.clf.gz --ticks-per-turn 2000\n"
+      "  picolo calibrate routine drive.clf.gz --ticks-per-turn 2000\n"
       "\n"
       "Files may be .gz. Pictures (residuals, path: odometry green, lidar yellow, corrected red) "
       "and\n"

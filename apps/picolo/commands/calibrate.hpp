@@ -4,12 +4,13 @@
 /// The calibrate commands, one file each; calibrate.cpp adds them to the command line.
 #pragma once
 
-#include <string>
-
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "commands.hpp"
 #include "picolo/calibration/parameter.hpp"
+#include "picolo/calibration/wheel_model.hpp"
 
 namespace picolo::tool {
 
@@ -24,6 +25,7 @@ struct CalibrateOptions {
   double ticks_per_turn = 0.0;
   double max_offset_s = 0.5;
   bool single_pass = false;
+  double collect_share = 0.85;  ///< of a log; the rest is fresh data to verify by
 };
 
 ExitCode calibrate_wheels_command(const CalibrateOptions& options);
@@ -31,7 +33,12 @@ ExitCode calibrate_joint_command(const CalibrateOptions& options);
 ExitCode calibrate_linear_command(const CalibrateOptions& options);
 ExitCode calibrate_extrinsic_command(const CalibrateOptions& options);
 ExitCode calibrate_time_offset_command(const CalibrateOptions& options);
+ExitCode calibrate_routine_command(const CalibrateOptions& options);
 ExitCode calibrate_memory_command(const CalibrateOptions& options);
+
+/// Pictures of wheels with equal radii, of the lidar, and of the calibrated wheels.
+void draw_joint(const std::vector<MotionSample>& samples, const DriveParameters& drive,
+                const std::string& title, const std::string& folder);
 
 /// refused when there is a refusal, else what the input's end asks for.
 ExitCode end_of_calibration(const Refusal& refusal, const std::string& name,

@@ -33,33 +33,33 @@ std::vector<MotionSample> samples_of(const DriveFile& drive) {
   return samples;
 }
 
-void draw(const std::vector<MotionSample>& samples, const JointReport& report,
-          const std::string& folder) {
-  const double mean = 0.5 * (report.drive.radius_left_m + report.drive.radius_right_m);
-  DriveParameters before = report.drive;
+}  // namespace
+
+void draw_joint(const std::vector<MotionSample>& samples, const DriveParameters& drive,
+                const std::string& title, const std::string& folder) {
+  const double mean = 0.5 * (drive.radius_left_m + drive.radius_right_m);
+  DriveParameters before = drive;
   before.radius_left_m = before.radius_right_m = mean;
   Residuals residuals;
   host::Trajectory odometry, lidar, corrected;
   Pose2d a, b, c;
   double stamp_s = 0.0;
-  const Pose2d& mount = report.drive.base_T_lidar;
+  const Pose2d& mount = drive.base_T_lidar;
   for (const MotionSample& sample : samples) {
     const Pose2d was = motion_residual(before, sample);
-    const Pose2d is = motion_residual(report.drive, sample);
+    const Pose2d is = motion_residual(drive, sample);
     residuals.before_m.push_back({was.x_m, was.y_m});
     residuals.after_m.push_back({is.x_m, is.y_m});
     a = a * base_motion(before, sample);
     b = b * (mount * sample.lidar_motion * inverse(mount));
-    c = c * base_motion(report.drive, sample);
+    c = c * base_motion(drive, sample);
     stamp_s += sample.duration_s;
     odometry.push_back({stamp_s, a});
     lidar.push_back({stamp_s, b});
     corrected.push_back({stamp_s, c});
   }
-  draw_calibration(folder, "Wheels and lidar together", residuals, odometry, lidar, corrected);
+  draw_calibration(folder, title, residuals, odometry, lidar, corrected);
 }
-
-}  // namespace
 
 ExitCode calibrate_joint_command(const CalibrateOptions& options) {
   host::Diagnostics diagnostics;
@@ -86,7 +86,7 @@ ExitCode calibrate_joint_command(const CalibrateOptions& options) {
                             "0 to 8 rounds, quantile above 0.5 and at most 1"};
     }
   }
-  draw(samples, report, options.common.out);
+  draw_joint(samples, report.drive, "Wheels and lidar together", options.common.out);
   print_calibration(joint_json(report), options.common.json, options.common.out);
   return end_of_calibration(report.refusal, drive.name, drive.damage);
 }

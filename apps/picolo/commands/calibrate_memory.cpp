@@ -4,11 +4,15 @@
 
 #include "commands/calibrate.hpp"
 #include "picolo/calibration/extrinsic_calibration.hpp"
+#include "picolo/calibration/gyro_calibration.hpp"
+#include "picolo/calibration/imu_mount.hpp"
 #include "picolo/calibration/joint_streaming.hpp"
 #include "picolo/calibration/linear_calibration.hpp"
 #include "picolo/calibration/motion_check.hpp"
 #include "picolo/calibration/time_offset.hpp"
 #include "picolo/calibration/wheel_streaming.hpp"
+#include "picolo/controller/calibration_routine.hpp"
+#include "picolo/controller/scan_odometer.hpp"
 #include "picolo/host/json.hpp"
 
 namespace picolo::tool {
@@ -22,6 +26,10 @@ ExitCode calibrate_memory_command(const CalibrateOptions& options) {
   bytes["motion_check"] = sizeof(MotionCheck);
   bytes["time_offset_41_lags"] = sizeof(TimeOffset<41, 128>);
   bytes["time_offset_101_lags"] = sizeof(TimeOffset<101, 128>);
+  bytes["gyro"] = sizeof(GyroCalibration);
+  bytes["imu_mount"] = sizeof(ImuMountCalibration);
+  bytes["routine"] = sizeof(CalibrationRoutine);
+  bytes["scan_odometer_180_points"] = sizeof(ScanOdometer<180>);
   if (options.common.json) {
     fmt::print("{}\n", host::to_text({{"bytes", bytes}}));
     return ExitCode::done;

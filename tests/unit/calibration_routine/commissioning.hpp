@@ -71,7 +71,7 @@ class Commissioning {
   }
 
   /// Stands, starts the routine, and does what it advises until it ends or `limit_s` has passed.
-  void follow_advice(double limit_s = 600.0) {
+  void follow_advice(double limit_s = 900.0) {
     begin();
     while (routine_.running() && now_s() < limit_s) { drive(advised()); }
   }

@@ -195,7 +195,7 @@ TEST(CalibrationRoutine, AbortLeavesTheStoreAloneAndANewStartForgets) {
   EXPECT_EQ(drive.routine().refusal().reason, RefusalReason::aborted);
   CalibrationRecord record;
   EXPECT_EQ(flash.store.load(record), Status::not_ready);
-  drive.follow_advice(drive.now_s() + 600.0);
+  drive.follow_advice(drive.now_s() + 900.0);
   EXPECT_EQ(drive.routine().phase(), CalibrationPhase::done) << told(drive.routine());
 }
 

@@ -25,7 +25,7 @@ class AngleHistoryCore {
   /// The rate covers the time since the sample before, which ends at the stamp. Not later than the
   /// newest, or not finite: left out.
   void add(double stamp_s, double rate_radps);
-  /// `out_of_range`: not reached yet, or forgotten. Cost: O(log n).
+  /// `not_ready`: not reached yet; `out_of_range`: forgotten. Cost: O(log n).
   [[nodiscard]] Result<double> at(double stamp_s) const;
   [[nodiscard]] std::size_t size() const { return size_; }
 

@@ -54,7 +54,8 @@ inline constexpr std::size_t kCalibrationParameters = 13;
 
 struct CalibrationRoutineConfig {
   double counts_per_revolution = 4096.0;
-  bool use_gyro = true;  ///< calibrate it too, when one is heard
+  /// Calibrate it too, when one is heard. Without, there is no need to stand first.
+  bool use_gyro = true;
   double gyro_sign = 1.0;
   double initial_time_offset_s = 0.0;
   JointStreamingConfig joint{};  ///< what is refused when it is all there is
@@ -139,6 +140,8 @@ class CalibrationRoutine {
   [[nodiscard]] const CalibrationRecord& record() const { return record_; }
   [[nodiscard]] const JointReport& report() const { return report_; }
   [[nodiscard]] const TimeOffsetReport& offset_report() const { return offset_report_; }
+  [[nodiscard]] const TimeOffsetReport& gyro_offset_report() const { return gyro_offset_report_; }
+  [[nodiscard]] const GyroReport& gyro_report() const { return gyro_report_; }
   [[nodiscard]] std::uint32_t scans() const { return scans_; }
   /// Scans that the wheels' history no longer reached, or that came faster than they were used.
   [[nodiscard]] std::uint32_t scans_dropped() const { return scans_dropped_; }
@@ -156,6 +159,7 @@ class CalibrationRoutine {
   void enter(CalibrationPhase phase, Timestamp now);
   void refuse(const Refusal& refusal);
   bool work();
+  [[nodiscard]] bool waits_for_gyro(const Scan& scan) const;
   [[nodiscard]] bool take_scan();
   void use(const MotionSample& sample);
   void learn_gyro(const Scan& scan);

@@ -87,6 +87,7 @@ class JointStreaming {
   void follow_gain(const MotionCheck& seen);
   void refresh();
   [[nodiscard]] bool passes(const MotionSample& sample);
+  [[nodiscard]] Pose2d noise() const;
   [[nodiscard]] Status current(RotationGain& gain, DriveParameters& drive) const;
   void accumulate(const MotionSample& sample);
 
@@ -105,6 +106,11 @@ class JointStreaming {
   bool gains_known_ = false;  // for the present sample's turn
   double scale_rotation_rad_ = 0.0;
   double scale_translation_m_ = 0.0;
+  // Mean squares of what passed the gate: the noise that is reported; a running median wanders.
+  double squares_rotation_ = 0.0;
+  double squares_translation_ = 0.0;
+  std::uint64_t gated_rotation_ = 0;
+  std::uint64_t gated_translation_ = 0;
   std::uint64_t samples_ = 0;
   std::uint64_t rejected_ = 0;
   Stage stage_ = Stage::gather;

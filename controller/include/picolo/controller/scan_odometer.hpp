@@ -17,7 +17,7 @@
 
 namespace picolo::inline v0 {
 
-struct ScanMotionConfig {
+struct ScanOdometerConfig {
   /// Scans that follow sooner are left out: a longer way between two scans is seen better.
   Duration min_interval = 150ms;
   /// A longer gap is not bridged: wheels do not keep their rates for so long.
@@ -28,7 +28,7 @@ struct ScanMotionConfig {
 };
 
 /// Two scans in the lidar's own frame. All spans of one size, and that of the matcher's storage.
-struct ScanMotionStorage {
+struct ScanOdometerStorage {
   std::array<std::span<float>, 2> x_m;
   std::array<std::span<float>, 2> y_m;
 };
@@ -40,7 +40,7 @@ struct ScanDisplacement {
   Pose2d motion{};
 };
 
-struct ScanMotionCounters {
+struct ScanOdometerCounters {
   std::uint32_t matched = 0;
   std::uint32_t failed = 0;
   std::uint32_t skipped = 0;  ///< offered while a match was under way, or too soon
@@ -48,11 +48,11 @@ struct ScanMotionCounters {
 
 /// Cost: `offer` O(points); a `step` is the beginning of a match or one iteration of it, see
 /// PlIcpMatcherCore. Context: cycle only.
-class ScanMotionCore {
+class ScanOdometerCore {
  public:
   /// What is referred to outlives this. `matcher` is used by nobody else.
-  ScanMotionCore(const ScanMotionConfig& config, const ScanMotionStorage& storage,
-                 PlIcpMatcherCore& matcher)
+  ScanOdometerCore(const ScanOdometerConfig& config, const ScanOdometerStorage& storage,
+                   PlIcpMatcherCore& matcher)
       : config_(config), storage_(storage), matcher_(matcher) {}
 
   /// Points of one instant in base. More than the storage holds are thinned out evenly. Odometry is
@@ -64,7 +64,7 @@ class ScanMotionCore {
   /// The newest displacement, once. False: none since the last call.
   [[nodiscard]] bool take(ScanDisplacement& displacement);
   void reset();
-  [[nodiscard]] const ScanMotionCounters& counters() const { return counters_; }
+  [[nodiscard]] const ScanOdometerCounters& counters() const { return counters_; }
 
  private:
   enum class Stage : std::uint8_t { empty, reference, begin, iterate };
@@ -77,36 +77,36 @@ class ScanMotionCore {
   void keep(const PointsView& points, Scan& scan, std::size_t index, const Pose2d& base_T_lidar);
   void conclude();
 
-  ScanMotionConfig config_;
-  ScanMotionStorage storage_;
+  ScanOdometerConfig config_;
+  ScanOdometerStorage storage_;
   PlIcpMatcherCore& matcher_;
   std::array<Scan, 2> scans_{};
   std::size_t reference_ = 0;  // index of the earlier scan
   Stage stage_ = Stage::empty;
   ScanDisplacement result_{};
   bool fresh_ = false;
-  ScanMotionCounters counters_{};
+  ScanOdometerCounters counters_{};
 };
 
 /// Storage: 58 bytes a point. A match takes the longer the more points there are: choose as many
 /// as one iteration fits into the background's budget.
 template <std::size_t Capacity>
-class ScanMotion {
+class ScanOdometer {
  public:
-  explicit ScanMotion(const ScanMotionConfig& config = {}, const PlIcpConfig& matcher = {})
+  explicit ScanOdometer(const ScanOdometerConfig& config = {}, const PlIcpConfig& matcher = {})
       : matcher_(matcher),
         core_(config, {{x_m_[0], x_m_[1]}, {y_m_[0], y_m_[1]}}, matcher_.core()) {}
-  ScanMotion(const ScanMotion&) = delete;
-  ScanMotion& operator=(const ScanMotion&) = delete;
-  ~ScanMotion() = default;
-  [[nodiscard]] ScanMotionCore& core() { return core_; }
-  [[nodiscard]] const ScanMotionCore& core() const { return core_; }
+  ScanOdometer(const ScanOdometer&) = delete;
+  ScanOdometer& operator=(const ScanOdometer&) = delete;
+  ~ScanOdometer() = default;
+  [[nodiscard]] ScanOdometerCore& core() { return core_; }
+  [[nodiscard]] const ScanOdometerCore& core() const { return core_; }
 
  private:
   std::array<std::array<float, Capacity>, 2> x_m_{};
   std::array<std::array<float, Capacity>, 2> y_m_{};
   PlIcpMatcher<Capacity> matcher_;
-  ScanMotionCore core_;
+  ScanOdometerCore core_;
 };
 
 }  // namespace picolo::inline v0

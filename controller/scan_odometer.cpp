@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/controller/scan_motion.hpp"
+#include "picolo/controller/scan_odometer.hpp"
 
 #include <algorithm>
 
@@ -10,13 +10,13 @@
 
 namespace picolo::inline v0 {
 
-PointsView ScanMotionCore::view(std::size_t index) const {
+PointsView ScanOdometerCore::view(std::size_t index) const {
   const std::size_t size = scans_[index].size;
   return {storage_.x_m[index].first(size), storage_.y_m[index].first(size)};
 }
 
-void ScanMotionCore::keep(const PointsView& points, Scan& scan, std::size_t index,
-                          const Pose2d& base_T_lidar) {
+void ScanOdometerCore::keep(const PointsView& points, Scan& scan, std::size_t index,
+                            const Pose2d& base_T_lidar) {
   const Pose2f lidar_T_base = to_f32(inverse(base_T_lidar));
   const SinCos<float> turn = sin_cos(lidar_T_base.theta_rad);
   const std::size_t capacity = storage_.x_m[index].size();
@@ -31,8 +31,8 @@ void ScanMotionCore::keep(const PointsView& points, Scan& scan, std::size_t inde
   }
 }
 
-void ScanMotionCore::offer(const PointsView& points, Timestamp stamp, const Pose2d& odom_T_base,
-                           const Pose2d& base_T_lidar) {
+void ScanOdometerCore::offer(const PointsView& points, Timestamp stamp, const Pose2d& odom_T_base,
+                             const Pose2d& base_T_lidar) {
   const Duration since = stamp - scans_[reference_].stamp;
   const bool busy = stage_ == Stage::begin || stage_ == Stage::iterate;
   if (busy || (stage_ == Stage::reference && since < config_.min_interval)) {
@@ -47,7 +47,7 @@ void ScanMotionCore::offer(const PointsView& points, Timestamp stamp, const Pose
   stage_ = first ? Stage::reference : Stage::begin;
 }
 
-bool ScanMotionCore::step() {
+bool ScanOdometerCore::step() {
   if (stage_ == Stage::begin) {
     const Pose2d guess =
         between(scans_[reference_].odom_T_lidar, scans_[1 - reference_].odom_T_lidar);
@@ -60,7 +60,7 @@ bool ScanMotionCore::step() {
   return true;
 }
 
-void ScanMotionCore::conclude() {
+void ScanOdometerCore::conclude() {
   const MatchReport& report = matcher_.report();
   if (report.outcome == MatchOutcome::converged) {
     ++counters_.matched;
@@ -73,14 +73,14 @@ void ScanMotionCore::conclude() {
   stage_ = Stage::reference;
 }
 
-bool ScanMotionCore::take(ScanDisplacement& displacement) {
+bool ScanOdometerCore::take(ScanDisplacement& displacement) {
   if (!fresh_) { return false; }
   displacement = result_;
   fresh_ = false;
   return true;
 }
 
-void ScanMotionCore::reset() {
+void ScanOdometerCore::reset() {
   stage_ = Stage::empty;
   fresh_ = false;
 }

@@ -31,13 +31,14 @@ const char* to_string(CalibrationPhase phase) {
   switch (phase) {
     case CalibrationPhase::idle: return "idle";
     case CalibrationPhase::standstill: return "standstill";
-    case CalibrationPhase::collect: return "collect";
-    case CalibrationPhase::check: return "check";
-    case CalibrationPhase::solve: return "solve";
-    case CalibrationPhase::verify: return "verify";
-    case CalibrationPhase::store: return "store";
+    case CalibrationPhase::collecting: return "collecting";
+    case CalibrationPhase::checking: return "checking";
+    case CalibrationPhase::solving: return "solving";
+    case CalibrationPhase::verifying: return "verifying";
+    case CalibrationPhase::saving: return "saving";
     case CalibrationPhase::done: return "done";
     case CalibrationPhase::refused: return "refused";
+    case CalibrationPhase::aborted: return "aborted";
   }
   return "unknown";
 }
@@ -215,7 +216,7 @@ void CalibrationRoutine::check() {
   } else if (config_.use_gyro && gyro_heard_ && gyro_report_.scale_refusal) {
     refuse(gyro_report_.scale_refusal);
   } else {
-    phase_ = CalibrationPhase::solve;
+    phase_ = CalibrationPhase::solving;
   }
 }
 

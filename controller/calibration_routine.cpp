@@ -68,12 +68,17 @@ Status CalibrationRoutine::start(Timestamp now) {
   return Status::ok;
 }
 
-void CalibrationRoutine::finish() {
-  finishing_ = finishing_ || phase_ == CalibrationPhase::collect;
+Status CalibrationRoutine::finish() {
+  if (phase_ != CalibrationPhase::collecting) { return Status::not_ready; }
+  finishing_ = true;
+  return Status::ok;
 }
 
-void CalibrationRoutine::abort() {
-  if (running() && !saving_) { refuse({RefusalReason::aborted, Parameter::none}); }
+Status CalibrationRoutine::cancel() {
+  if (!running() || saving_) { return Status::not_ready; }
+  refuse({RefusalReason::aborted, Parameter::none});
+  phase_ = CalibrationPhase::aborted;
+  return Status::ok;
 }
 
 void CalibrationRoutine::enter(CalibrationPhase phase, Timestamp now) {
@@ -139,7 +144,7 @@ void CalibrationRoutine::add_scan(Timestamp begin, Timestamp end, const Pose2d& 
   }
   waiting_[(first_ + held_) % kWaitingScans] = scan;
   ++held_;
-  if (phase_ == CalibrationPhase::collect) {
+  if (phase_ == CalibrationPhase::collecting) {
     static_cast<void>(
         lidar_clock_.core().offer_rotation(scan.begin_s, scan.end_s, lidar_motion.theta_rad));
   }
@@ -154,7 +159,7 @@ bool CalibrationRoutine::work() {
 /// The gyro speaks, but has not come to the end of the scan yet.
 bool CalibrationRoutine::waits_for_gyro(const Scan& scan) const {
   constexpr double kPatience_s = 0.3;
-  if (!gyro_heard_ || phase_ != CalibrationPhase::collect) { return false; }
+  if (!gyro_heard_ || phase_ != CalibrationPhase::collecting) { return false; }
   const double end_s = scan.end_s + gyro_offset_report_.offset_s.value - used_offset_s_;
   if (gyro_angle_.core().at(end_s).status() != Status::not_ready) { return false; }
   WheelAngles later;
@@ -185,7 +190,7 @@ bool CalibrationRoutine::take_scan() {
 }
 
 void CalibrationRoutine::use(const MotionSample& sample) {
-  if (phase_ == CalibrationPhase::verify) {
+  if (phase_ == CalibrationPhase::verifying) {
     verify(sample);
     return;
   }
@@ -202,7 +207,7 @@ void CalibrationRoutine::use(const MotionSample& sample) {
 }
 
 void CalibrationRoutine::learn_gyro(const Scan& scan) {
-  if (!config_.use_gyro || phase_ != CalibrationPhase::collect) { return; }
+  if (!config_.use_gyro || phase_ != CalibrationPhase::collecting) { return; }
   const double shift_s = gyro_offset_report_.offset_s.value - used_offset_s_;
   const Result<double> begin = gyro_angle_.core().at(scan.begin_s + shift_s);
   const Result<double> end = gyro_angle_.core().at(scan.end_s + shift_s);
@@ -214,16 +219,17 @@ void CalibrationRoutine::learn_gyro(const Scan& scan) {
 bool CalibrationRoutine::step(Timestamp now) {
   switch (phase_) {
     case CalibrationPhase::standstill: wait_for_standstill(now); return false;
-    case CalibrationPhase::collect: return collect(now);
-    case CalibrationPhase::check: check(); return true;
-    case CalibrationPhase::solve: solve(now); return true;
-    case CalibrationPhase::verify:
+    case CalibrationPhase::collecting: return collect(now);
+    case CalibrationPhase::checking: check(); return true;
+    case CalibrationPhase::solving: solve(now); return true;
+    case CalibrationPhase::verifying:
       if (take_scan()) { return true; }
       judge_verification(now);
       return false;
-    case CalibrationPhase::store: store(now); return true;
+    case CalibrationPhase::saving: store(now); return true;
     case CalibrationPhase::idle:
     case CalibrationPhase::done:
+    case CalibrationPhase::aborted:
     case CalibrationPhase::refused: break;
   }
   return false;
@@ -236,7 +242,7 @@ void CalibrationRoutine::wait_for_standstill(Timestamp now) {
   if (stood && bias_known) {
     advice_ = DriveAdvice::turn_left;
     next_look_ = now + kLook;
-    enter(CalibrationPhase::collect, now);
+    enter(CalibrationPhase::collecting, now);
     return;
   }
   if (now - entered_ <= config_.max_wait) { return; }
@@ -253,7 +259,7 @@ bool CalibrationRoutine::collect(Timestamp now) {
   const bool out_of_time = now - entered_ > config_.max_collect;
   if (finishing_ || out_of_time || complete()) {
     advice_ = DriveAdvice::none;
-    enter(CalibrationPhase::check, now);
+    enter(CalibrationPhase::checking, now);
     return true;
   }
   if (now < next_look_) { return false; }
@@ -267,14 +273,14 @@ void CalibrationRoutine::solve(Timestamp now) {
   for (std::size_t k = 0; k < 6; ++k) {
     record_.drive_std[k] = square_root(std::max(0.0, report_.covariance[7 * k]));
   }
-  record_.time_offset_s = offset_report_.offset_s.value;
+  record_.time_offset_s = config_.known_lidar_age_s + offset_report_.offset_s.value;
   record_.gyro_bias_radps = gyro_report_.bias_radps.value;
   record_.gyro_scale = gyro_report_.scale_refusal ? 1.0 : gyro_report_.scale.value;
   record_.gyro_offset_s = gyro_offset_report_.refusal ? 0.0 : gyro_offset_report_.offset_s.value;
   record_.calibrated = true;
   advice_ = DriveAdvice::drive_on;
   held_ = 0;  // what waits was seen before the solution
-  enter(CalibrationPhase::verify, now);
+  enter(CalibrationPhase::verifying, now);
 }
 
 void CalibrationRoutine::verify(const MotionSample& sample) {
@@ -314,7 +320,7 @@ void CalibrationRoutine::judge_verification(Timestamp now) {
   const bool enough = within >= config_.min_verified_share * static_cast<double>(verified_);
   if (enough && x <= limit && y <= limit && theta <= limit) {
     advice_ = DriveAdvice::none;
-    enter(CalibrationPhase::store, now);
+    enter(CalibrationPhase::saving, now);
     return;
   }
   Parameter worst = Parameter::track_width;

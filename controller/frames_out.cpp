@@ -145,6 +145,14 @@ CanFrame FramesOut::calibration(const CalibrationProgress& progress) {
   return next(can_layout::kCalibration, {}, raw);
 }
 
+CanFrame FramesOut::calibration_hint(const CalibrationHint& hint) {
+  const std::array raw{
+      code(hint.advice),           std::int64_t{hint.wheels},    std::int64_t{hint.track},
+      std::int64_t{hint.lidar_xy}, std::int64_t{hint.lidar_yaw}, std::int64_t{hint.time_offset},
+      std::int64_t{hint.gyro}};
+  return next(can_layout::kCalibrationHint, {}, raw);
+}
+
 CanFrame FramesOut::calibration_value(const CalibrationValue& value) {
   const auto& signals = can_layout::kCalibrationValue.fields;
   const std::array raw{code(value.parameter), to_raw(signals[1], value.estimate.value),

@@ -16,8 +16,9 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
                    LocaliserCore& localiser)
     : undistort_(config.undistort),
       max_bridge_(config.max_bridge),
+      lidar_age_(config.lidar_age),
       localiser_(localiser),
-      gyro_sign_(config.dead_reckoning.gyro_sign),
+      gyro_gain_(config.dead_reckoning.gyro_sign * config.dead_reckoning.gyro_scale),
       gate_(config.plausibility, config.drive),
       turn_check_(config.plausibility),
       drive_(config.drive),
@@ -32,10 +33,11 @@ void Pipeline::add(const ImuSample& sample) {
   dead_reckoning_.add(sample);
   if (sample.saturated) { return; }
   turn_check_.add_gyro(sample.stamp,
-                       gyro_sign_ * sample.rate_radps[2] - dead_reckoning_.gyro_bias_radps());
+                       gyro_gain_ * sample.rate_radps[2] - dead_reckoning_.gyro_bias_radps());
 }
 
-void Pipeline::add(const RangeReading& reading) {
+void Pipeline::add(RangeReading reading) {
+  reading.stamp -= lidar_age_;
   const std::uint32_t completed = sweeps_.counters().completed;
   sweeps_.add(reading);
   if (sweeps_.counters().completed != completed) { last_sweep_end_ = last_reading_; }
@@ -91,16 +93,16 @@ void Pipeline::take_sweep() {
   }
 }
 
-void Pipeline::undistort(std::size_t max_returns) {
+bool Pipeline::undistort(std::size_t max_returns) {
   const bool may_take = stage_ == PipelineStage::waiting || stage_ == PipelineStage::undistorting;
   if (may_take && !paused_ && sweeps_.ready()) { take_sweep(); }
-  if (stage_ != PipelineStage::undistorting) { return; }
+  if (stage_ != PipelineStage::undistorting) { return false; }
   const Status status = undistorter_.step(poses_, max_returns);
-  if (status == Status::not_ready) { return; }
+  if (status == Status::not_ready) { return false; }
   stage_ = PipelineStage::waiting;
   if (status != Status::ok) {
     ++counters_.sweeps_uncovered;
-    return;
+    return false;
   }
   if (pose_was_set_) {
     const Pose2d odom_T_base = newest_pose({}).odom_T_base;
@@ -110,9 +112,10 @@ void Pipeline::undistort(std::size_t max_returns) {
   constexpr bool kOdometryValid = true;  // without poses the sweep would not have been undistorted
   if (!is_ok(localiser_.begin(undistorter_.result(), kOdometryValid))) {
     ++counters_.sweeps_refused;
-    return;
+    return false;
   }
   stage_ = PipelineStage::matching;
+  return true;
 }
 
 bool Pipeline::match(std::size_t max_point_iterations) {

@@ -15,7 +15,8 @@ constexpr std::uint8_t kRareEvery = can_table::kCounter.every;
 static_assert(can_table::kMatchSigma.every == kRareEvery &&
               can_table::kDriftSigma.every == kRareEvery &&
               can_table::kCorrelation.every == kRareEvery &&
-              can_table::kCalibration.every == kRareEvery && kRareEvery == 4);
+              can_table::kCalibration.every == kRareEvery &&
+              can_table::kCalibrationHint.every == kRareEvery && kRareEvery == 4);
 
 }  // namespace
 
@@ -79,6 +80,8 @@ void Reporter::tell_calibration(const CalibrationService& calibration) {
   const CalibrationProgress progress = calibration.progress();
   if (progress.phase == CalibrationPhase::idle) { return; }
   send(frames_.calibration(progress));
+  const CalibrationHint hint = calibration.hint();
+  if (hint.advice != DriveAdvice::none) { send(frames_.calibration_hint(hint)); }
   const std::size_t values = calibration.value_count();
   if (values == 0) { return; }
   if (next_value_ >= values) { next_value_ = 0; }

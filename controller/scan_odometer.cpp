@@ -19,15 +19,13 @@ void ScanOdometerCore::keep(const PointsView& points, Scan& scan, std::size_t in
                             const Pose2d& base_T_lidar) {
   const Pose2f lidar_T_base = to_f32(inverse(base_T_lidar));
   const SinCos<float> turn = sin_cos(lidar_T_base.theta_rad);
-  const std::size_t capacity = storage_.x_m[index].size();
-  const std::size_t stride = std::max<std::size_t>(1, (points.size() + capacity - 1) / capacity);
-  scan.size = 0;
-  for (std::size_t k = 0; k < points.size() && scan.size < capacity; k += stride) {
-    const float x = points.x_m[k];
-    const float y = points.y_m[k];
-    storage_.x_m[index][scan.size] = turn.cosine * x - turn.sine * y + lidar_T_base.x_m;
-    storage_.y_m[index][scan.size] = turn.sine * x + turn.cosine * y + lidar_T_base.y_m;
-    ++scan.size;
+  scan.size = std::min(points.size(), storage_.x_m[index].size());
+  for (std::size_t k = 0; k < scan.size; ++k) {
+    const std::size_t from = k * points.size() / scan.size;
+    const float x = points.x_m[from];
+    const float y = points.y_m[from];
+    storage_.x_m[index][k] = turn.cosine * x - turn.sine * y + lidar_T_base.x_m;
+    storage_.y_m[index][k] = turn.sine * x + turn.cosine * y + lidar_T_base.y_m;
   }
 }
 

@@ -24,7 +24,8 @@ void DeadReckoning::add(const ImuSample& sample) {
     ++counters_.gyro_rejected;
     return;
   }
-  const double raw_radps = static_cast<double>(config_.gyro_sign * sample.rate_radps[2]);
+  const double raw_radps =
+      static_cast<double>(config_.gyro_sign * config_.gyro_scale * sample.rate_radps[2]);
   if (standing_ && sample.stamp - standing_since_ >= config_.standstill) { learn_bias(raw_radps); }
   GyroAngle next{.stamp = sample.stamp, .rate_radps = raw_radps - bias_radps_};
   if (held_ > 0) {

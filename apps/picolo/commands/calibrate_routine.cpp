@@ -40,10 +40,10 @@ class Player {
     const double finish_s = begin_s + collect_share * (last_stamp() - begin_s);
     static_cast<void>(routine_.start(at(begin_s)));
     while (next_record()) {
-      if (now_s_ >= finish_s) { routine_.finish(); }
+      if (now_s_ >= finish_s) { static_cast<void>(routine_.finish()); }
       work();
     }
-    routine_.finish();
+    static_cast<void>(routine_.finish());
     const double end_s = now_s_ + kWaitForTheEnd_s;
     for (; routine_.running() && now_s_ < end_s; now_s_ += 0.01) { work(); }
   }

@@ -81,7 +81,7 @@ class Commissioning {
   }
   /// Says that this is all, and stands until the routine has ended.
   void finish() {
-    routine_.finish();
+    static_cast<void>(routine_.finish());
     for (int k = 0; k < 20'000 && routine_.running(); ++k) { tick({}); }
   }
 

@@ -174,8 +174,8 @@ TEST(CalibrationRoutine, FreshDataThatContradictsIsRefused) {
   Flash flash;
   Commissioning drive{{}, 6, {}, &flash.store};
   drive.begin();
-  while (drive.routine().phase() == CalibrationPhase::collect) { drive.drive(drive.advised()); }
-  ASSERT_EQ(drive.routine().phase(), CalibrationPhase::verify) << told(drive.routine());
+  while (drive.routine().phase() == CalibrationPhase::collecting) { drive.drive(drive.advised()); }
+  ASSERT_EQ(drive.routine().phase(), CalibrationPhase::verifying) << told(drive.routine());
   DriveParameters flat_tyre = Truth{}.drive;
   flat_tyre.radius_left_m *= 0.93;
   drive.change(flat_tyre);
@@ -191,7 +191,10 @@ TEST(CalibrationRoutine, AbortLeavesTheStoreAloneAndANewStartForgets) {
   drive.begin();
   drive.drive(kGood);
   EXPECT_EQ(drive.routine().start(drive.now()), Status::full);
-  drive.routine().abort();
+  EXPECT_EQ(drive.routine().cancel(), Status::ok);
+  EXPECT_EQ(drive.routine().cancel(), Status::not_ready);
+  EXPECT_EQ(drive.routine().finish(), Status::not_ready);
+  EXPECT_EQ(drive.routine().phase(), CalibrationPhase::aborted);
   EXPECT_EQ(drive.routine().refusal().reason, RefusalReason::aborted);
   CalibrationRecord record;
   EXPECT_EQ(flash.store.load(record), Status::not_ready);
@@ -217,7 +220,7 @@ TEST(CalibrationRoutine, ProgressGrowsAndEachPhaseHasAName) {
   EXPECT_GT(early, 0);
   drive.drive(kGood);
   EXPECT_GT(drive.routine().percent(Parameter::track_width), early);
-  for (int k = 0; k <= 8; ++k) {
+  for (int k = 0; k <= 9; ++k) {
     EXPECT_STRNE(to_string(static_cast<CalibrationPhase>(k)), "unknown");
   }
   for (int k = 0; k <= 6; ++k) { EXPECT_STRNE(to_string(static_cast<DriveAdvice>(k)), "unknown"); }

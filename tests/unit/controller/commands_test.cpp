@@ -221,9 +221,12 @@ struct FakeCalibration final : CalibrationService {
   }
   void add(const WheelTicks& /*ticks*/) override { ++heard; }
   void add(const ImuSample& /*sample*/) override { ++heard; }
-  void add(const MatchVerdict& /*verdict*/) override { ++heard; }
+  void add(const UndistortedSweep& /*sweep*/) override { ++heard; }
   void step(Timestamp /*now*/) override {}
   [[nodiscard]] CalibrationProgress progress() const override { return state; }
+  [[nodiscard]] CalibrationHint hint() const override {
+    return {.advice = DriveAdvice::turn_left, .wheels = 12, .gyro = CalibrationHint::kNoPercent};
+  }
   [[nodiscard]] std::size_t value_count() const override { return 1; }
   [[nodiscard]] CalibrationValue value(std::size_t /*index*/) const override {
     return {Parameter::track_width, {0.503, 0.0004}};
@@ -252,6 +255,12 @@ TEST(Commands, CalibrationIsStartedToldAndAborted) {
       EXPECT_EQ(progress->raw[0], static_cast<int>(CalibrationPhase::collecting));
       EXPECT_EQ(progress->raw[1], 2);
       EXPECT_EQ(progress->raw[2], 40);
+    }
+    const auto hint = decode(can_table::kCalibrationHint, kBase, frame);
+    if (hint) {
+      EXPECT_EQ(hint->raw[0], static_cast<int>(DriveAdvice::turn_left));
+      EXPECT_EQ(hint->raw[1], 12);
+      EXPECT_EQ(hint->raw[6], 127);
     }
     if (value) {
       EXPECT_EQ(value->raw[0], static_cast<int>(Parameter::track_width));

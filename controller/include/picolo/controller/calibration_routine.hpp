@@ -15,35 +15,12 @@
 #include "picolo/calibration/time_offset.hpp"
 #include "picolo/controller/angle_history.hpp"
 #include "picolo/controller/calibration_store.hpp"
+#include "picolo/controller/can_table_names.hpp"
 #include "picolo/core/time.hpp"
 #include "picolo/sensing/imu_sample.hpp"
 #include "picolo/sensing/wheel_ticks.hpp"
 
 namespace picolo::inline v0 {
-
-/// The number goes over the wire: append only.
-enum class CalibrationPhase : std::uint8_t {
-  idle = 0,
-  standstill = 1,  ///< waiting for it, then averaging the gyro
-  collect = 2,
-  check = 3,
-  solve = 4,
-  verify = 5,  ///< fresh data against the solution
-  store = 6,
-  done = 7,
-  refused = 8
-};
-
-/// What to drive next. The number goes over the wire: append only.
-enum class DriveAdvice : std::uint8_t {
-  none = 0,
-  stand_still = 1,
-  turn_left = 2,       ///< on the spot
-  turn_right = 3,      ///< on the spot
-  drive_straight = 4,  ///< 3 m
-  change_speed = 5,    ///< turn to and fro, briskly
-  drive_on = 6         ///< anything with turns
-};
 
 [[nodiscard]] const char* to_string(CalibrationPhase phase);
 /// One sentence for the person who drives.
@@ -58,6 +35,8 @@ struct CalibrationRoutineConfig {
   bool use_gyro = true;
   double gyro_sign = 1.0;
   double initial_time_offset_s = 0.0;
+  /// Taken out of the scans' stamps already; what is found comes on top of it.
+  double known_lidar_age_s = 0.0;
   JointStreamingConfig joint{};  ///< what is refused when it is all there is
   TimeOffsetConfig time_offset{.max_offset_s = 0.3};
   TimeOffsetConfig gyro_offset{.max_offset_s = 0.15, .parameter = Parameter::gyro_offset};
@@ -103,10 +82,10 @@ class CalibrationRoutine {
 
   /// `full`: a run is under way.
   Status start(Timestamp now);
-  /// The driver says that this is all: checks what there is. Only while collecting.
-  void finish();
-  /// Refused, with reason aborted. Not while idle, done or refused, nor in the middle of storing.
-  void abort();
+  /// The driver says that this is all: checks what there is. `not_ready`: not collecting.
+  Status finish();
+  /// `not_ready`: none is under way, or it is in the middle of storing.
+  Status cancel();
 
   void add(const WheelTicks& ticks);
   void add(const ImuSample& sample);
@@ -119,11 +98,11 @@ class CalibrationRoutine {
   [[nodiscard]] CalibrationPhase phase() const { return phase_; }
   [[nodiscard]] bool running() const {
     return phase_ != CalibrationPhase::idle && phase_ != CalibrationPhase::done &&
-           phase_ != CalibrationPhase::refused;
+           phase_ != CalibrationPhase::refused && phase_ != CalibrationPhase::aborted;
   }
   /// Scans are of use now.
   [[nodiscard]] bool listening() const {
-    return phase_ == CalibrationPhase::collect || phase_ == CalibrationPhase::verify;
+    return phase_ == CalibrationPhase::collecting || phase_ == CalibrationPhase::verifying;
   }
   /// Set while refused: the most basic thing that was missing.
   [[nodiscard]] const Refusal& refusal() const { return refusal_; }
@@ -142,6 +121,8 @@ class CalibrationRoutine {
   [[nodiscard]] const TimeOffsetReport& offset_report() const { return offset_report_; }
   [[nodiscard]] const TimeOffsetReport& gyro_offset_report() const { return gyro_offset_report_; }
   [[nodiscard]] const GyroReport& gyro_report() const { return gyro_report_; }
+  [[nodiscard]] bool gyro_heard() const { return gyro_heard_; }
+  [[nodiscard]] Duration elapsed(Timestamp now) const { return now - origin_; }
   [[nodiscard]] std::uint32_t scans() const { return scans_; }
   /// Scans that the wheels' history no longer reached, or that came faster than they were used.
   [[nodiscard]] std::uint32_t scans_dropped() const { return scans_dropped_; }

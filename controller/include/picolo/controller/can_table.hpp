@@ -172,6 +172,15 @@ inline constexpr std::array kCalibrationValueSignals{
               "",
               "in the parameter's unit: m, rad, s or rad/s"},
     CanSignal{{48, 16, false, CanKind::number, 1'000'000}, "sigma", "", "standard deviation"}};
+inline constexpr std::array kCalibrationHintSignals{
+    CanSignal{
+        {12, 4, false, CanKind::name, 1}, "advice", "", "what to drive next", kDriveAdviceNames},
+    CanSignal{{16, 7, false, CanKind::number, 1}, "wheels", "%", "radii: the smaller of both"},
+    CanSignal{{23, 7, false, CanKind::number, 1}, "track", "%", "gathered of what is needed"},
+    CanSignal{{30, 7, false, CanKind::number, 1}, "lidar_xy", "%", "the smaller of both"},
+    CanSignal{{37, 7, false, CanKind::number, 1}, "lidar_yaw", "%", ""},
+    CanSignal{{44, 7, false, CanKind::number, 1}, "time_offset", "%", ""},
+    CanSignal{{51, 7, false, CanKind::number, 1}, "gyro", "%", "scale; without a gyro 127"}};
 inline constexpr std::array kReplySignals{
     CanSignal{
         {12, 4, false, CanKind::name, 1}, "command", "", "the command answered", kCommandNames},
@@ -193,7 +202,10 @@ inline constexpr std::array kSetModeSignals{
 inline constexpr std::array kMapSlotSignals{
     kTick, CanSignal{{20, 8, false, CanKind::count, 1}, "slot", "", "where maps are kept"}};
 inline constexpr std::array kStartCalibrationSignals{
-    kTick, CanSignal{{20, 4, false, CanKind::count, 1}, "procedure", "", "see docs/controller.md"}};
+    kTick, CanSignal{{20, 4, false, CanKind::count, 1},
+                     "procedure",
+                     "",
+                     "0: all; 15: that is all, check what there is"}};
 inline constexpr std::array kTickOnlySignals{kTick};
 inline constexpr std::array kReadEventsSignals{
     kTick, CanSignal{{20, 16, false, CanKind::count, 1},
@@ -243,6 +255,13 @@ inline constexpr CanMessage kCalibrationValue{
     false,
     kCalibrationValueSignals,
     "one result after the other, once a calibration has ended well"};
+inline constexpr CanMessage kCalibrationHint{
+    "PicoloCalibrationHint",
+    13,
+    4,
+    false,
+    kCalibrationHintSignals,
+    "what each parameter has, and what to drive next; while a calibration runs"};
 inline constexpr CanMessage kReply{
     "PicoloReply", 12, 0, false, kReplySignals, "answers every command, taken or refused"};
 
@@ -284,6 +303,7 @@ inline constexpr std::array kMessages{&kPose,
                                       &kCalibration,
                                       &kCalibrationValue,
                                       &kReply,
+                                      &kCalibrationHint,
                                       &kSetPose,
                                       &kSetMode,
                                       &kSaveMap,
@@ -333,6 +353,7 @@ inline constexpr CanLayout kEventTime = layout_of(can_table::kEventTime);
 inline constexpr CanLayout kCounter = layout_of(can_table::kCounter);
 inline constexpr CanLayout kCalibration = layout_of(can_table::kCalibration);
 inline constexpr CanLayout kCalibrationValue = layout_of(can_table::kCalibrationValue);
+inline constexpr CanLayout kCalibrationHint = layout_of(can_table::kCalibrationHint);
 inline constexpr CanLayout kReply = layout_of(can_table::kReply);
 inline constexpr CanLayout kSetPose = layout_of(can_table::kSetPose);
 inline constexpr CanLayout kSetMode = layout_of(can_table::kSetMode);

@@ -28,8 +28,21 @@ enum class CalibrationPhase : std::uint8_t {
   done = 3,
   refused = 4,
   aborted = 5,
-  checking = 6,  ///< the answer against fresh data
+  checking = 6,  ///< whether the data suffices
   saving = 7,
+  standstill = 8,  ///< waiting for it, then averaging the gyro
+  verifying = 9,   ///< the answer against fresh data
+};
+
+/// What to drive next for a calibration.
+enum class DriveAdvice : std::uint8_t {
+  none = 0,
+  stand_still = 1,
+  turn_left = 2,       ///< on the spot
+  turn_right = 3,      ///< on the spot
+  drive_straight = 4,  ///< 3 m
+  change_speed = 5,    ///< turn to and fro, briskly
+  drive_on = 6,        ///< anything with turns
 };
 
 enum class CommandResult : std::uint8_t {
@@ -103,8 +116,14 @@ inline constexpr std::array kEventCodeNames{
     CanName{9, "device_back"},      CanName{10, "pose_set"},      CanName{11, "mode_set"},
     CanName{12, "command_refused"}, CanName{13, "impersonated"}};
 inline constexpr std::array kCalibrationPhaseNames{
-    CanName{0, "idle"},    CanName{1, "collecting"}, CanName{2, "solving"},  CanName{3, "done"},
-    CanName{4, "refused"}, CanName{5, "aborted"},    CanName{6, "checking"}, CanName{7, "saving"}};
+    CanName{0, "idle"},     CanName{1, "collecting"}, CanName{2, "solving"},
+    CanName{3, "done"},     CanName{4, "refused"},    CanName{5, "aborted"},
+    CanName{6, "checking"}, CanName{7, "saving"},     CanName{8, "standstill"},
+    CanName{9, "verifying"}};
+inline constexpr std::array kDriveAdviceNames{
+    CanName{0, "none"},       CanName{1, "stand_still"},    CanName{2, "turn_left"},
+    CanName{3, "turn_right"}, CanName{4, "drive_straight"}, CanName{5, "change_speed"},
+    CanName{6, "drive_on"}};
 inline constexpr std::array kRefusalReasonNames{CanName{0, "none"},
                                                 CanName{1, "too_little_data"},
                                                 CanName{2, "standing_still"},
@@ -119,7 +138,8 @@ inline constexpr std::array kRefusalReasonNames{CanName{0, "none"},
                                                 CanName{11, "constant_velocity"},
                                                 CanName{12, "inconsistent"},
                                                 CanName{13, "aborted"},
-                                                CanName{14, "numerically_singular"}};
+                                                CanName{14, "numerically_singular"},
+                                                CanName{15, "not_stored"}};
 inline constexpr std::array kParameterNames{CanName{0, "none"},
                                             CanName{1, "wheel_radius_left"},
                                             CanName{2, "wheel_radius_right"},

@@ -125,7 +125,7 @@ class Controller {
       case ControllerTask::can: drain_can(work_bound); break;
       case ControllerTask::serial: drain_serial(work_bound); break;
       case ControllerTask::odometry: integrate(); break;
-      case ControllerTask::undistort: pipeline_.undistort(work_bound); break;
+      case ControllerTask::undistort: undistort(work_bound); break;
       case ControllerTask::match: judge(pipeline_.match(work_bound)); break;
       case ControllerTask::map: pipeline_.map(work_bound); break;
       case ControllerTask::background:
@@ -221,10 +221,14 @@ class Controller {
     published_.publish(estimate_);
   }
 
+  void undistort(std::uint32_t max_returns) {
+    const bool ready = pipeline_.undistort(max_returns);
+    if (ready && calibration() != nullptr) { calibration()->add(pipeline_.sweep()); }
+  }
+
   void judge(bool match_ended) {
     if (!match_ended) { return; }
     const MatchVerdict& verdict = pipeline_.verdict();
-    if (calibration() != nullptr) { calibration()->add(verdict); }
     if (verdict.accepted) { composer_.correct(verdict, pipeline_.newest_pose(frame_.start)); }
     const bool jumped = verdict.accepted && composer_.jumped();
     supervisor_.matched(verdict, jumped, composer_.pulled());

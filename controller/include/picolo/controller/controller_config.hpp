@@ -115,6 +115,8 @@ struct ControllerConfig {
   Duration max_prediction = 25ms;
   /// A gap of the wheels up to this long is bridged with their last velocity and the gyro's turn.
   Duration max_bridge = 200ms;
+  /// The lidar measured so long before its stamps say, on the wheels' clock; see calibration.
+  Duration lidar_age{0};
   [[nodiscard]] constexpr bool valid() const;
 };
 

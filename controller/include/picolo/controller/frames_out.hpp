@@ -26,6 +26,18 @@ struct CalibrationProgress {
   Duration elapsed{};
 };
 
+/// Percent of the information needed, by parameter; kNoPercent where there is nothing to tell.
+struct CalibrationHint {
+  static constexpr std::uint8_t kNoPercent = 127;
+  DriveAdvice advice = DriveAdvice::none;
+  std::uint8_t wheels = kNoPercent;
+  std::uint8_t track = kNoPercent;
+  std::uint8_t lidar_xy = kNoPercent;
+  std::uint8_t lidar_yaw = kNoPercent;
+  std::uint8_t time_offset = kNoPercent;
+  std::uint8_t gyro = kNoPercent;
+};
+
 /// One answer of a calibration, in the parameter's unit.
 struct CalibrationValue {
   Parameter parameter = Parameter::none;
@@ -74,6 +86,7 @@ class FramesOut {
   [[nodiscard]] CanFrame event_time(const Event& event, std::uint32_t index);
   [[nodiscard]] CanFrame counter(CounterIndex which, std::uint32_t value);
   [[nodiscard]] CanFrame calibration(const CalibrationProgress& progress);
+  [[nodiscard]] CanFrame calibration_hint(const CalibrationHint& hint);
   [[nodiscard]] CanFrame calibration_value(const CalibrationValue& value);
   [[nodiscard]] CanFrame reply(const CommandReply& reply);
 

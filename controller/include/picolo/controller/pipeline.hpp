@@ -69,13 +69,14 @@ class Pipeline {
   ~Pipeline() = default;
 
   void add(const ImuSample& sample);
-  void add(const RangeReading& reading);
+  void add(RangeReading reading);
   /// Advances odometry and remembers its pose. Damaged counts are left out.
   void add(WheelTicks ticks);
 
   /// Handles at most `max_returns` returns of the sweep, once the poses cover it. A sweep that
   /// cannot be undistorted is dropped and counted.
-  void undistort(std::size_t max_returns);
+  /// True when a sweep became ready in this call: see `sweep`.
+  bool undistort(std::size_t max_returns);
   /// As many iterations as `max_point_iterations` allow, at least one. True when a match ended in
   /// this call: see `verdict`.
   bool match(std::size_t max_point_iterations);
@@ -101,6 +102,8 @@ class Pipeline {
   void map(std::size_t max_rays);
 
   [[nodiscard]] PipelineStage stage() const { return stage_; }
+  /// The sweep at hand, valid until the next one is taken.
+  [[nodiscard]] const UndistortedSweep& sweep() const { return undistorter_.result(); }
   [[nodiscard]] const MatchVerdict& verdict() const { return verdict_; }
   [[nodiscard]] const LocaliserCore& localiser() const { return localiser_; }
   [[nodiscard]] const DeadReckoning& odometry() const { return dead_reckoning_; }
@@ -123,8 +126,9 @@ class Pipeline {
 
   UndistortConfig undistort_;
   Duration max_bridge_;
+  Duration lidar_age_;
   LocaliserCore& localiser_;
-  float gyro_sign_;
+  float gyro_gain_;
   WheelGate gate_;
   TurnCheck turn_check_;
   DifferentialDrive drive_;

@@ -46,12 +46,13 @@ class CalibrationService {
   // What the controller hears, whether a calibration is under way or not.
   virtual void add(const WheelTicks& ticks) = 0;
   virtual void add(const ImuSample& sample) = 0;
-  /// The end of a match, accepted or not.
-  virtual void add(const MatchVerdict& verdict) = 0;
+  /// A sweep at one instant, in base; its points are valid during the call only.
+  virtual void add(const UndistortedSweep& sweep) = 0;
   /// One bounded slice of background work, once a minor frame.
   virtual void step(Timestamp now) = 0;
 
   [[nodiscard]] virtual CalibrationProgress progress() const = 0;
+  [[nodiscard]] virtual CalibrationHint hint() const = 0;
   /// Answers to tell, 0 unless the last calibration was done.
   [[nodiscard]] virtual std::size_t value_count() const = 0;
   /// Precondition: index < value_count().

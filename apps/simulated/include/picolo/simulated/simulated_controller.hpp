@@ -34,7 +34,8 @@ class SimulatedController {
   /// measure this machine's time. Either way no decision depends on it.
   explicit SimulatedController(const sim::SimulationConfig& simulation,
                                const ControllerConfig& config = simulated_vehicle_config(),
-                               CycleCounter* cycle_counter = nullptr)
+                               CycleCounter* cycle_counter = nullptr,
+                               const ControllerServices& services = {})
       : simulation_(simulation),
         wheels_(simulation_.can(), wheels_config(simulation)),
         lidar_(simulation_.lidar_port()),
@@ -42,7 +43,7 @@ class SimulatedController {
         controller_({simulation_.can(), simulation_.clock(),
                      cycle_counter != nullptr ? *cycle_counter : simulation_.cycle_counter(),
                      simulation_.watchdog()},
-                    wheels_, lidar_, imu_, events_, config) {}
+                    wheels_, lidar_, imu_, events_, config, services) {}
   SimulatedController(const SimulatedController&) = delete;
   SimulatedController& operator=(const SimulatedController&) = delete;
   ~SimulatedController() = default;

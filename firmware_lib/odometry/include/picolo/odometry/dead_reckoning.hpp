@@ -17,7 +17,8 @@ namespace picolo::inline v0 {
 
 struct DeadReckoningConfig {
   bool use_gyro = true;
-  float gyro_sign = 1.0F;  ///< -1 for a sensor mounted upside down
+  float gyro_sign = 1.0F;   ///< -1 for a sensor mounted upside down
+  float gyro_scale = 1.0F;  ///< true rate over measured rate, see GyroCalibration
   /// The last rate holds for at most this long; beyond it the wheels turn alone.
   Duration gyro_hold = 25ms;
   Duration standstill = 500ms;  ///< wheels without a count for this long: the gyro shows its bias
@@ -26,7 +27,7 @@ struct DeadReckoningConfig {
   int bias_samples = 200;  ///< averaging length of the bias
   [[nodiscard]] constexpr bool valid() const {
     return gyro_hold >= Duration{0} && standstill > Duration{0} && max_bias_radps > 0.0F &&
-           bias_samples > 0 && (gyro_sign == 1.0F || gyro_sign == -1.0F);
+           bias_samples > 0 && gyro_scale > 0.0F && (gyro_sign == 1.0F || gyro_sign == -1.0F);
   }
 };
 

@@ -1,0 +1,165 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// The vehicle calibrates itself on simulated wires: started by a CAN frame, watched through CAN
+// frames, its pose undisturbed.
+
+#include "picolo/controller/onboard_calibration.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <vector>
+
+#include "picolo/controller/calibration_store.hpp"
+#include "picolo/controller/command_gate.hpp"
+#include "picolo/core/hash.hpp"
+#include "picolo/simulated/simulated_controller.hpp"
+
+namespace picolo {
+namespace {
+
+/// Straights, turns on the spot, arcs and quick turns to and fro, within 3 m.
+sim::SimulationConfig calibration_drive() {
+  sim::SimulationConfig config{.seed = 5, .scene = sim::make_scene(sim::SceneName::room)};
+  config.drive.stand_at_start = 4s;
+  config.drive.max_speed_mps = 0.6;
+  config.drive.max_omega_radps = 1.2;
+  config.vehicle.slip_sigma = 0.0;  // a wheel that slips has no radius
+  config.vehicle.scrub_s = 0.0;
+  const sim::TwistPiece figure[] = {{4s, 0.0, 0.9},  {4s, 0.5, 0.0},  {4s, -0.5, 0.0},
+                                    {4s, 0.0, -0.9}, {5s, 0.4, 0.8},  {5s, -0.4, -0.8},
+                                    {5s, 0.4, -0.8}, {5s, -0.4, 0.8}, {1s, 0.0, 1.1},
+                                    {1s, 0.0, -1.1}, {1s, 0.0, 1.1},  {1s, 0.0, -1.1}};
+  for (int round = 0; round < 5; ++round) {
+    for (const sim::TwistPiece& piece : figure) { EXPECT_TRUE(config.script.push_back(piece)); }
+  }
+  return config;
+}
+
+/// Frames of the controller, by their identifier.
+class Ear final : public sim::CanListener {
+ public:
+  void heard(const CanFrame& frame, bool from_firmware) override {
+    if (!from_firmware) { return; }
+    const auto offset = static_cast<std::size_t>(frame.id - FramesOutConfig{}.base_id);
+    if (offset < kCanOwnIds) { newest[offset] = frame; }
+  }
+  [[nodiscard]] std::int64_t signal(const CanMessage& message, std::size_t index) const {
+    const auto decoded = decode(message, FramesOutConfig{}.base_id, newest[message.offset]);
+    return decoded ? decoded->raw[index] : -1;
+  }
+  std::array<CanFrame, kCanOwnIds> newest{};
+};
+
+struct WiredDrive {
+  explicit WiredDrive(const ControllerServices& services,
+                      const ControllerConfig& config = simulated_vehicle_config())
+      : robot(calibration_drive(), config, nullptr, services) {
+    robot.simulation().can().attach(&ear);
+    EXPECT_EQ(robot.start(), Status::ok);
+  }
+  void send(CommandKind kind, std::uint8_t detail) {
+    const Timestamp now = robot.simulation().now();
+    CanFrame frame = encode_command(
+        FramesOutConfig{}.base_id,
+        {.kind = kind, .counter = ++counter, .tick = can_tick(now), .detail = detail});
+    frame.stamp = now;
+    robot.simulation().can().deliver(frame);
+  }
+  void until(Duration elapsed) {
+    const Timestamp end = robot.simulation().config().start + elapsed;
+    while (robot.controller().next_frame() < end) {
+      ASSERT_EQ(robot.run_frame(), Status::ok);
+      const PoseEstimate& estimate = robot.controller().estimate();
+      for (const Pose2d* pose : {&estimate.map_T_base, &estimate.odom_T_base}) {
+        hash.add(pose->x_m);
+        hash.add(pose->y_m);
+        hash.add(pose->theta_rad);
+      }
+    }
+  }
+  Ear ear;
+  SimulatedController<RoomProfile> robot;
+  Hash hash{};
+  std::uint8_t counter = 0;
+};
+
+constexpr Duration kDrive = 170s;
+
+TEST(OnboardCalibration, IsStartedWatchedAndFinishedOverCan) {
+  std::vector<std::uint8_t> memory(1024);
+  sim::SimByteStore flash{memory, 512, 8};
+  CalibrationStore store{flash};
+  OnboardCalibrationConfig config = onboard_calibration(simulated_vehicle_config());
+  auto calibration = std::make_unique<OnboardCalibration<360>>(config, &store);
+  auto run = std::make_unique<WiredDrive>(ControllerServices{.calibration = &calibration->core()});
+  run->until(1s);
+  run->send(CommandKind::start_calibration, kCalibrateAll);
+  run->until(3s);
+  EXPECT_EQ(run->ear.signal(can_table::kCalibration, 0),
+            static_cast<int>(CalibrationPhase::standstill));
+  EXPECT_EQ(run->ear.signal(can_table::kCalibrationHint, 0),
+            static_cast<int>(DriveAdvice::stand_still));
+  run->until(60s);
+  EXPECT_EQ(run->ear.signal(can_table::kCalibration, 0),
+            static_cast<int>(CalibrationPhase::collecting));
+  EXPECT_GT(run->ear.signal(can_table::kCalibration, 5), 100) << "samples";
+  EXPECT_GT(run->ear.signal(can_table::kCalibrationHint, 2), 0) << "percent of the track";
+  run->until(150s);
+  if (calibration->core().routine().phase() == CalibrationPhase::collecting) {
+    run->send(CommandKind::start_calibration, kFinishCalibration);
+  }
+  run->until(kDrive);
+  const CalibrationRoutine& routine = calibration->core().routine();
+  std::printf("std %.5f %.5f %.5f %.5f %.5f %.5f; matched %u failed %u, %u dropped\n",
+              routine.record().drive_std[0], routine.record().drive_std[1],
+              routine.record().drive_std[2], routine.record().drive_std[3],
+              routine.record().drive_std[4], routine.record().drive_std[5],
+              calibration->scans().matched, calibration->scans().failed, routine.scans_dropped());
+  ASSERT_EQ(routine.phase(), CalibrationPhase::done)
+      << to_string(routine.refusal().parameter) << ": " << to_string(routine.refusal().reason);
+  EXPECT_EQ(run->ear.signal(can_table::kCalibration, 0), static_cast<int>(CalibrationPhase::done));
+
+  CalibrationRecord record;
+  ASSERT_EQ(store.load(record), Status::ok);
+  const sim::SimulationConfig truth = calibration_drive();
+  std::printf("r_L %.5f r_R %.5f b %.5f, lidar %.5f %.5f %.5f, clock %.5f, gyro %.5f %.5f\n",
+              record.drive.radius_left_m, record.drive.radius_right_m, record.drive.track_m,
+              record.drive.base_T_lidar.x_m, record.drive.base_T_lidar.y_m,
+              record.drive.base_T_lidar.theta_rad, record.time_offset_s, record.gyro_scale,
+              record.gyro_offset_s);
+  EXPECT_NEAR(record.drive.radius_left_m, truth.vehicle.radius_left_m, 2e-3 * 0.1);
+  EXPECT_NEAR(record.drive.radius_right_m, truth.vehicle.radius_right_m, 2e-3 * 0.1);
+  EXPECT_NEAR(record.drive.track_m, truth.vehicle.track_m, 2e-3 * 0.5);
+  EXPECT_NEAR(record.drive.base_T_lidar.x_m, truth.lidar.base_T_lidar.x_m, 0.003);
+  EXPECT_NEAR(record.drive.base_T_lidar.y_m, truth.lidar.base_T_lidar.y_m, 0.003);
+  EXPECT_NEAR(record.drive.base_T_lidar.theta_rad, truth.lidar.base_T_lidar.theta_rad, 0.003);
+
+  ControllerConfig better = simulated_vehicle_config();
+  apply(record, better);
+  EXPECT_TRUE(better.valid());
+  EXPECT_EQ(better.drive.track_m, record.drive.track_m);
+  EXPECT_EQ(onboard_calibration(better).routine.known_lidar_age_s,
+            to_seconds_f64(better.lidar_age));
+}
+
+// Without frames of the controller on the bus, whose length would move the stamps of the wheels.
+TEST(OnboardCalibration, ThePoseIsTheSameToTheLastBit) {
+  ControllerConfig quiet = simulated_vehicle_config();
+  quiet.frames_out.enabled = false;
+  auto calibration = std::make_unique<OnboardCalibration<360>>(onboard_calibration(quiet));
+  auto with =
+      std::make_unique<WiredDrive>(ControllerServices{.calibration = &calibration->core()}, quiet);
+  ASSERT_EQ(calibration->core().start(kCalibrateAll, with->robot.simulation().now()), Status::ok);
+  with->until(90s);
+  EXPECT_GT(calibration->scans().matched, 300U);
+  auto alone = std::make_unique<WiredDrive>(ControllerServices{}, quiet);
+  alone->until(90s);
+  EXPECT_EQ(with->hash.value(), alone->hash.value());
+}
+
+}  // namespace
+}  // namespace picolo

@@ -5,11 +5,12 @@
 
 #include <numbers>
 
+#include "path_jacobian.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
 
-static_assert(WheelOdometry<DifferentialDrive>);
+static_assert(DifferentiableWheelOdometry<DifferentialDrive>);
 
 namespace {
 
@@ -40,12 +41,23 @@ Result<WheelIncrement> DifferentialDrive::update(const WheelTicks& ticks) {
       static_cast<double>(right_counts) * (radians_per_count * config_.right_radius_m);
 
   WheelIncrement increment{.from = last_.stamp, .to = ticks.stamp};
-  increment.from_T_to = exp_se2(
-      Tangent2<double>{(left_m + right_m) / 2.0, 0.0, (right_m - left_m) / config_.track_m});
+  path_ = {(left_m + right_m) / 2.0, 0.0, (right_m - left_m) / config_.track_m};
+  increment.from_T_to = exp_se2(path_);
   if (corrected_) { increment.from_T_to = corrected(config_.correction, increment.from_T_to); }
   increment.standing = left_counts == 0 && right_counts == 0;
   last_ = ticks;
   return increment;
+}
+
+WheelJacobian DifferentialDrive::jacobian() const {
+  Matrix3d slope = plain_jacobian(path_);
+  if (corrected_) { slope = product(config_.correction, slope); }
+  WheelJacobian jacobian;
+  set_column(jacobian, 0, slope,
+             {0.5 * config_.left_radius_m, 0.0, -config_.left_radius_m / config_.track_m});
+  set_column(jacobian, 1, slope,
+             {0.5 * config_.right_radius_m, 0.0, config_.right_radius_m / config_.track_m});
+  return jacobian;
 }
 
 }  // namespace picolo::inline v0

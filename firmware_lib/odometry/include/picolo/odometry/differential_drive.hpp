@@ -32,11 +32,13 @@ class DifferentialDrive {
   explicit DifferentialDrive(const DifferentialDriveConfig& config = {});
 
   Result<WheelIncrement> update(const WheelTicks& ticks);
+  [[nodiscard]] WheelJacobian jacobian() const;
   [[nodiscard]] const DifferentialDriveConfig& config() const { return config_; }
 
  private:
   DifferentialDriveConfig config_;
   bool corrected_;
+  Tangent2<double> path_{};  // of the last increment
   WheelTicks last_{};
   bool has_last_ = false;
 };

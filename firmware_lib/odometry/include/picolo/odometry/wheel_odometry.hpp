@@ -4,6 +4,7 @@
 /// From wheel counts to motion: the concept every wheel model satisfies.
 #pragma once
 
+#include <array>
 #include <concepts>
 
 #include "picolo/core/result.hpp"
@@ -26,6 +27,20 @@ struct WheelIncrement {
 template <typename W>
 concept WheelOdometry = requires(W& wheels, const WheelTicks& ticks) {
   { wheels.update(ticks) } -> std::same_as<Result<WheelIncrement>>;
+};
+
+/// Derivative of x, y and theta of `from_T_to` with respect to what each encoder turned, metres and
+/// radians per radian; row 0 x, 1 y, 2 theta, a column an index of `WheelTicks::ticks`.
+struct WheelJacobian {
+  std::array<std::array<double, kMaxWheels>, 3> d{};
+};
+
+/// `jacobian` belongs to the last increment that `update` returned, and is computed when it is
+/// asked for: with the encoders' covariance C, the increment's is J C J'. Cost: two sin_cos in
+/// double.
+template <typename W>
+concept DifferentiableWheelOdometry = WheelOdometry<W> && requires(const W& wheels) {
+  { wheels.jacobian() } -> std::same_as<WheelJacobian>;
 };
 
 }  // namespace picolo::inline v0

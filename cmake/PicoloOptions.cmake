@@ -33,6 +33,10 @@ target_compile_options(picolo_firmware INTERFACE
   # Eigen's own assert brings in printf and abort.
   "-Deigen_assert(x)=static_cast<void>((x)||(__builtin_trap(),0))")
 
+# The library's Eigen has a name of its own. A customer's Eigen, vectorised and fused, has the same templates; the linker
+# keeps one of each name, and with the customer's the bits would change (apps/firmware/determinism/hostile.cpp).
+target_compile_definitions(picolo_firmware INTERFACE Eigen=EigenOfPicolo)
+
 set(CMAKE_CXX_EXTENSIONS OFF)
 
 # picolo_module(NAME [DEPENDS other...]): one folder of firmware_lib. picolo_NAME_api carries the folder's headers and those it

@@ -26,7 +26,7 @@ void OrderStatistic::offer(double value) {
 
 void OrderStatistic::end_pass() {
   bits_left_ -= 4;
-  for (std::uint64_t digit = 0; digit < 16; ++digit) {
+  for (std::uint32_t digit = 0; digit < 16; ++digit) {
     const std::uint64_t count = counts_[digit];
     if (index_ < count) {
       prefix_ = (prefix_ << 4) | digit;

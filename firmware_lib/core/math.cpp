@@ -11,6 +11,7 @@
 
 #include "picolo/core/convert.hpp"
 #include "picolo/core/number_model.hpp"
+#include "picolo/core/soft_double.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -225,8 +226,13 @@ float square_root(float x) {
   return __builtin_sqrtf(x);
 }
 
+// Without double-precision hardware the builtin would be a call of libm.
 double square_root(double x) {
+#if defined(__arm__) && (!defined(__ARM_FP) || (__ARM_FP & 8) == 0)
+  return std::bit_cast<double>(soft_double::square_root(std::bit_cast<std::uint64_t>(x)));
+#else
   return __builtin_sqrt(x);
+#endif
 }
 
 float hypotenuse(float x, float y) {

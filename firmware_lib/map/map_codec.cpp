@@ -226,12 +226,12 @@ void restore_coarse_row(const RollingMapCore& fine, RollingMapCore& coarse, int 
   const GridWindow& from = fine.window();
   const GridWindow& to = coarse.window();
   const int row_y = (to.origin_y_cells + row) * factor - from.origin_y_cells;
-  const int first_y = std::max(0, row_y);
-  const int end_y = std::min(from.height, row_y + factor);
+  const int first_y = std::max<std::int32_t>(0, row_y);
+  const int end_y = std::min<std::int32_t>(from.height, row_y + factor);
   for (int column = 0; column < to.width; ++column) {
     const int column_x = (to.origin_x_cells + column) * factor - from.origin_x_cells;
-    const int first_x = std::max(0, column_x);
-    const int end_x = std::min(from.width, column_x + factor);
+    const int first_x = std::max<std::int32_t>(0, column_x);
+    const int end_x = std::min<std::int32_t>(from.width, column_x + factor);
     std::int8_t most = 0;
     for (int y = first_y; y < end_y; ++y) {
       for (int x = first_x; x < end_x; ++x) {

@@ -101,7 +101,7 @@ bool BeamPackets::lay_evenly(Ld06Packet& packet) {
   const double first = beams_[next_].clockwise_cdeg;
   const double spacing = alone ? kPointSpacing : beams_[next_ + 1].clockwise_cdeg - first;
   const std::int32_t spacings = -floor_to_i32(-spacing / kPointSpacing, -kTurn, 0);  // rounded up
-  const std::int32_t points_per_beam = std::max(spacings, 1);
+  const std::int32_t points_per_beam = std::max<std::int32_t>(spacings, 1);
   const double step = spacing / static_cast<double>(points_per_beam);
   const std::int32_t start = rounded_angle(next_);
   const std::int32_t end = rounded(first + kLastPoint * step);
@@ -125,7 +125,7 @@ bool BeamPackets::lay_evenly(Ld06Packet& packet) {
 /// One beam on the first point, the others squeezed in before the beam that follows.
 void BeamPackets::lay_single(Ld06Packet& packet) {
   const std::int32_t start = rounded_angle(next_);
-  const std::int32_t room = std::clamp(rounded_angle(next_ + 1) - start, 0, kWidest);
+  const std::int32_t room = std::clamp<std::int32_t>(rounded_angle(next_ + 1) - start, 0, kWidest);
   const std::int32_t end = start + room * 11 / 12;
   packet.range_mm.fill(0);
   packet.intensity.fill(0);

@@ -59,10 +59,59 @@ lint_row() {
   fi
 }
 
-# The groups of a newcomer's run.
+# Presets whose images the group `target` runs; in the short run the first one only.
+image_presets=(target-m7 target-m4f target-m55 target-a53 target-aarch64
+  image-gcc-O0 image-gcc-O2 image-gcc-O3 image-gcc-avx2
+  image-clang-O0 image-clang-O2 image-clang-O3 image-clang-avx2)
+
+has_arm() { command -v arm-none-eabi-g++ && command -v qemu-system-arm; } >/dev/null
+
+# Builds images and names them in PICOLO_TARGETS for the tests that run them.
+build_images() {
+  local preset built=none
+  for preset in "$@"; do
+    if build_row "$preset"; then built+=,$preset; fi
+  done
+  export PICOLO_TARGETS=$built
+}
+
+run_targets() {
+  need_packages "${packages_build[@]}" "${packages_arm[@]}" "${packages_targets[@]}"
+  mkdir -p "$root/build"
+  : >"$records"
+  build_images "${image_presets[@]}"
+  build host-release target_tests
+  local test failed=0
+  for test in "$root"/build/host-release/tests/target/*/test_target_*; do
+    [[ -x $test && ! -d $test ]] || continue
+    "$test" --gtest_brief=1 || failed=1
+  done
+  ! grep $'\tfailed\t' "$records" && return "$failed"
+}
+
+# The groups of a newcomer's run. The ARM packages are large: they are fetched while the host's part is built.
 short_groups() {
+  local fetching
+  (need_packages "${packages_arm[@]}") >"$root/build/arm-packages.log" 2>&1 &
+  fetching=$!
   build_row host-release || return 0
+  if wait "$fetching" && has_arm; then
+    build_images "${image_presets[0]}"
+  else
+    say "run: no ARM compiler or no QEMU (see build/arm-packages.log): the group target is skipped"
+    export PICOLO_TARGETS=none
+  fi
   ctest_rows host-release "" --label-exclude '^(slow|fuzz)$'
+}
+
+# Every platform of the one hash.
+target_groups() {
+  if ! (need_packages "${packages_arm[@]}" "${packages_targets[@]}") || ! has_arm; then
+    record "target every-platform" packages skipped 0 "packages for ARM could not be installed"
+    return 0
+  fi
+  build_images "${image_presets[@]}"
+  ctest_rows host-release " every-platform" --label-regex '^target$'
 }
 
 long_groups() {
@@ -76,6 +125,7 @@ long_groups() {
     builds+=(host-clang)
     ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
+  target_groups
   say "run: comparing trajectories of ${builds[*]}"
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"
 }

@@ -17,11 +17,12 @@ BEGIN { FS = "\t" }
 }
 
 # A required group must have run; `data` is not a group: tests that miss their data fail by themselves.
-function check_required(    names, n, i) {
+function check_required(    names, n, i, required_group) {
   n = split(required, names, ",")
   for (i = 1; i <= n; ++i) {
     if (names[i] == "" || names[i] == "data") { continue }
-    if (count[names[i], "passed"] + 0 == 0 || count[names[i], "skipped"] + 0 > 0) {
+    required_group = names[i] == "arm" ? "target" : names[i]
+    if (count[required_group, "passed"] + 0 == 0 || count[required_group, "skipped"] + 0 > 0) {
       failures[++failed_tests] = "PICOLO_REQUIRE: group " names[i] " did not run completely"
       ++total["failed"]
     }

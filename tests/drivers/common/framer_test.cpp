@@ -48,6 +48,24 @@ std::vector<Bytes> frames_of(Framer<ToyFormat>& framer, const Bytes& stream) {
   return frames;
 }
 
+struct TwoBytes {
+  static constexpr std::size_t kMaxFrame = 2;
+  [[nodiscard]] constexpr FrameCheck check(ByteView bytes) const {
+    return bytes.size() < 2 ? FrameCheck{} : FrameCheck{FrameVerdict::complete, 2};
+  }
+};
+
+constexpr std::uint32_t frames_of_a_constant_stream() {
+  Framer<TwoBytes> framer;
+  for (int byte = 0; byte < 6; ++byte) {
+    framer.push(0);
+    (void)framer.next();
+  }
+  return framer.counters().frames;
+}
+// A constant expression cannot write past the window: frames that fill it, one after the other.
+static_assert(frames_of_a_constant_stream() == 3);
+
 TEST(Framer, GivenSeveralFramesHiddenBehindARejectedCandidateThenAllAreFoundInOrder) {
   Framer<ToyFormat> framer;
   const Bytes small = toy({});

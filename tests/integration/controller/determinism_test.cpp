@@ -13,7 +13,6 @@ namespace {
 using sim::SceneName;
 using test::Drive;
 using test::Publication;
-using test::TrajectoryHash;
 
 std::uint64_t hash_of_drive(sim::SimulationConfig simulation, Duration length) {
   Drive drive{simulation};

@@ -14,9 +14,9 @@
 #include <memory>
 #include <vector>
 
-#include "picolo/core/hash.hpp"
 #include "picolo/geometry/angle.hpp"
 #include "picolo/simulated/simulated_controller.hpp"
+#include "picolo/simulated/trajectory_hash.hpp"
 
 namespace picolo::test {
 
@@ -101,33 +101,6 @@ class Drive {
   std::unique_ptr<SimulatedController<RoomProfile>> robot_;
   int wrong_in_a_row_ = 0;
   int silent_wrong_ = 0;
-};
-
-/// One number for what was published, stamps relative to the start.
-class TrajectoryHash {
- public:
-  explicit TrajectoryHash(Timestamp start) : start_(start) {}
-  void add(const PoseEstimate& estimate) {
-    hash_.add(static_cast<std::int64_t>((estimate.stamp - start_).count()));
-    for (const Pose2d* pose : {&estimate.map_T_base, &estimate.odom_T_base}) {
-      hash_.add(pose->x_m);
-      hash_.add(pose->y_m);
-      hash_.add(pose->theta_rad);
-    }
-    for (const float element : estimate.match_covariance.elements) { hash_.add(element); }
-    for (const float element : estimate.drift_covariance.elements) { hash_.add(element); }
-    hash_.add(static_cast<std::int64_t>(estimate.match_age.count()));
-    hash_.add((static_cast<std::uint32_t>(estimate.state) << 8) |
-              static_cast<std::uint32_t>(estimate.reason));
-  }
-  [[nodiscard]] std::uint64_t value() const {
-    EXPECT_FALSE(hash_.poisoned());
-    return hash_.value();
-  }
-
- private:
-  Timestamp start_;
-  Hash hash_{};
 };
 
 }  // namespace picolo::test

@@ -54,7 +54,8 @@ std::string symbol_violation(const Symbol& symbol) {
   const bool writable =
       (starts_with(symbol.section, ".data") && !starts_with(symbol.section, ".data.rel.ro")) ||
       starts_with(symbol.section, ".bss");
-  const bool index_name_of_eigen = starts_with(symbol.name, "_ZN5EigenL") && symbol.bytes <= 2;
+  const bool index_name_of_eigen =
+      starts_with(symbol.name, "_ZN13EigenOfPicoloL") && symbol.bytes <= 2;
   return writable && !index_name_of_eigen
              ? "is writable static storage: the application owns all memory"
              : "";

@@ -62,8 +62,10 @@ class Framer {
  public:
   explicit constexpr Framer(const Format& format = {}) : format_(format) {}
 
-  /// Precondition: `next()` answered false since the last push.
+  /// Gives up the frame handed out before. Precondition: `next()` was called since the last push.
   constexpr void push(std::uint8_t byte) {
+    drop(frame_size_);
+    frame_size_ = 0;
     window_[size_] = byte;
     ++size_;
   }

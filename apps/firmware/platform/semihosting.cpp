@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Arm's "Semihosting for AArch32 and AArch64", version 3: a trap instruction with the operation and
+// the address of its arguments in the first two registers.
+
+#include <cstring>
+
+#include "platform.hpp"
+
+namespace picolo::platform {
+namespace {
+
+using Word = std::uintptr_t;
+
+constexpr Word kOpen = 0x01;
+constexpr Word kWrite0 = 0x04;
+constexpr Word kRead = 0x06;
+constexpr Word kGetCommandLine = 0x15;
+constexpr Word kExitExtended = 0x20;
+constexpr Word kApplicationExit = 0x20026;
+
+Word call(Word operation, const void* arguments) {
+#if defined(__aarch64__)
+  register Word result __asm__("x0") = operation;
+  register const void* block __asm__("x1") = arguments;
+  __asm__ volatile("hlt 0xf000" : "+r"(result) : "r"(block) : "memory");
+#else
+  register Word result __asm__("r0") = operation;
+  register const void* block __asm__("r1") = arguments;
+  __asm__ volatile("bkpt 0xab" : "+r"(result) : "r"(block) : "memory");
+#endif
+  return result;
+}
+
+}  // namespace
+
+void argument(std::size_t index, std::span<char> word) {
+  char line[256] = {};
+  const Word block[2] = {reinterpret_cast<Word>(line), sizeof line};
+  word[0] = '\0';
+  if (call(kGetCommandLine, block) != 0) { return; }
+  // QEMU's arg= list: words parted by spaces, the first is the program's name as with main.
+  const char* at = line;
+  for (std::size_t i = 0; i <= index; ++i) {
+    at = std::strchr(at, ' ');
+    if (at == nullptr) { return; }
+    ++at;
+  }
+  std::size_t length = 0;
+  while (at[length] != '\0' && at[length] != ' ' && length + 1 < word.size()) {
+    word[length] = at[length];
+    ++length;
+  }
+  word[length] = '\0';
+}
+
+void write(const char* text) {
+  (void)call(kWrite0, text);
+}
+
+int open_file(const char* path) {
+  constexpr Word kReadBinary = 1;
+  const Word block[3] = {reinterpret_cast<Word>(path), kReadBinary, std::strlen(path)};
+  return static_cast<int>(call(kOpen, block));
+}
+
+std::size_t read_file(int file, std::span<std::uint8_t> bytes) {
+  const Word block[3] = {static_cast<Word>(file), reinterpret_cast<Word>(bytes.data()),
+                         bytes.size()};
+  const Word left = call(kRead, block);
+  return left <= bytes.size() ? bytes.size() - left : 0;
+}
+
+void leave(int status) {
+  const Word block[2] = {kApplicationExit, static_cast<Word>(status)};
+  while (true) { (void)call(kExitExtended, block); }
+}
+
+}  // namespace picolo::platform

@@ -15,6 +15,9 @@ target_compile_features(picolo_numbers INTERFACE cxx_std_20)
 target_compile_options(picolo_numbers INTERFACE -ffp-contract=off -fno-math-errno)
 target_compile_definitions(picolo_numbers INTERFACE EIGEN_DONT_VECTORIZE EIGEN_NO_IO EIGEN_NO_MALLOC)
 
+# The same bits as without, several times as fast on x86-64 of 2013 and later. Never with FMA: it rounds once where others round twice.
+option(PICOLO_AVX2 "Build the matching kernels with AVX2 instructions" OFF)
+
 add_library(picolo_warnings INTERFACE)
 target_compile_options(picolo_warnings INTERFACE
   $<$<COMPILE_LANGUAGE:CXX>:-Wall -Wextra -Wpedantic -Wconversion -Wsign-conversion -Wshadow
@@ -63,6 +66,10 @@ function(picolo_module name)
   add_library(picolo_${name} OBJECT ${sources})
   target_include_directories(picolo_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${name})
   target_link_libraries(picolo_${name} PRIVATE picolo_${name}_api picolo_warnings picolo_firmware)
+  if(PICOLO_AVX2 AND name STREQUAL "matching")
+    target_compile_options(picolo_${name} PRIVATE -mavx2 -mno-fma)
+    target_compile_definitions(picolo_${name} PRIVATE PICOLO_AVX2)
+  endif()
   if(NOT name STREQUAL "core")
     target_link_libraries(picolo_${name} PRIVATE Eigen3::Eigen)
   endif()

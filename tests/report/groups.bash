@@ -125,6 +125,7 @@ long_groups() {
     builds+=(host-clang)
     ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
+  if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
   target_groups
   say "run: comparing trajectories of ${builds[*]}"
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"

@@ -52,6 +52,7 @@ const std::map<std::string, std::string>& std_headers_with_one_home() {
   static const std::map<std::string, std::string> homes{
       {"chrono", "firmware_lib/core/include/picolo/core/time.hpp"},
       {"atomic", "firmware_lib/core/include/picolo/core/ring_buffer.hpp"},
+      {"immintrin.h", "firmware_lib/map/kernel/picolo/map/bilinear_lanes.hpp"},  // with AVX2 only
       {"memory", "controller/c_facade.cpp"},  // std::construct_at in memory of the caller
   };
   return homes;

@@ -13,7 +13,7 @@
 #include <cstddef>
 
 #include "picolo/core/math.hpp"
-#include "picolo/map/bilinear.hpp"
+#include "picolo/map/bilinear_lanes.hpp"
 #include "picolo/matching/field_sums.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
@@ -28,17 +28,25 @@ inline float cost_of_field(const Field& field, const FieldWalk& walk, const Poin
     const std::size_t end = std::min(points.size(), start + kBlock);
     Lanes products;
     products.fill(1.0F);
-    for (std::size_t k = start; k < end; ++k) {
-      const float x_m = points.x_m[k];
-      const float y_m = points.y_m[k];
-      const FieldSample at = sample(field, (walk.cosine * x_m - walk.sine * y_m) + walk.x_m,
-                                    (walk.sine * x_m + walk.cosine * y_m) + walk.y_m);
-      const float residual = 1.0F - at.value;
-      const float squared = residual * residual;
-      if (robust) {
-        products[k % kLanes] *= 1.0F + squared * walk.inverse_kernel_squared;
-      } else {
-        sums[k % kLanes] += squared;
+    for (std::size_t k = start; k < end; k += kLanes) {
+      const std::size_t lanes = std::min(kLanes, end - k);
+      Lanes x_m{}, y_m{};
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float px_m = points.x_m[k + l];
+        const float py_m = points.y_m[k + l];
+        x_m[l] = (walk.cosine * px_m - walk.sine * py_m) + walk.x_m;
+        y_m[l] = (walk.sine * px_m + walk.cosine * py_m) + walk.y_m;
+      }
+      FieldLanes at;
+      sample_lanes(field, x_m, y_m, at);
+      for (std::size_t l = 0; l < lanes; ++l) {
+        const float residual = 1.0F - at.value[l];
+        const float squared = residual * residual;
+        if (robust) {
+          products[l] *= 1.0F + squared * walk.inverse_kernel_squared;
+        } else {
+          sums[l] += squared;
+        }
       }
     }
     if (robust) {

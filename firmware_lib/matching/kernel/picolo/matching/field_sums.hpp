@@ -11,7 +11,7 @@
 #include <array>
 #include <cstddef>
 
-#include "picolo/map/bilinear.hpp"
+#include "picolo/map/bilinear_lanes.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
@@ -34,9 +34,6 @@ struct FieldWalk {
   float inlier_residual;         // unit-free
 };
 
-inline constexpr std::size_t kLanes = 8;
-using Lanes = std::array<float, kLanes>;
-
 inline float fold(const Lanes& lanes) {
   return ((lanes[0] + lanes[4]) + (lanes[2] + lanes[6])) +
          ((lanes[1] + lanes[5]) + (lanes[3] + lanes[7]));
@@ -50,17 +47,22 @@ struct LaneSums {
 template <typename Field>
 inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_m, const float* y_m,
                       LaneSums& sums) {
-  Lanes value, slope_x, slope_y, inside, arm_x, arm_y;
+  Lanes arm_x, arm_y, at_x_m, at_y_m;
   for (std::size_t l = 0; l < kLanes; ++l) {
-    const float rotated_x = walk.cosine * x_m[l] - walk.sine * y_m[l];
-    const float rotated_y = walk.sine * x_m[l] + walk.cosine * y_m[l];
-    const FieldSample at = sample(field, rotated_x + walk.x_m, rotated_y + walk.y_m);
-    arm_x[l] = at.inside > 0.0F ? rotated_x : 0.0F;  // a NaN outside must not reach the sums
-    arm_y[l] = at.inside > 0.0F ? rotated_y : 0.0F;
-    value[l] = at.value;
-    slope_x[l] = at.slope_x_per_m;
-    slope_y[l] = at.slope_y_per_m;
-    inside[l] = at.inside;
+    arm_x[l] = walk.cosine * x_m[l] - walk.sine * y_m[l];
+    arm_y[l] = walk.sine * x_m[l] + walk.cosine * y_m[l];
+    at_x_m[l] = arm_x[l] + walk.x_m;
+    at_y_m[l] = arm_y[l] + walk.y_m;
+  }
+  FieldLanes at;
+  sample_lanes(field, at_x_m, at_y_m, at);
+  const Lanes& value = at.value;
+  const Lanes& inside = at.inside;
+  Lanes& slope_x = at.slope_x_per_m;
+  Lanes& slope_y = at.slope_y_per_m;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    arm_x[l] = inside[l] > 0.0F ? arm_x[l] : 0.0F;  // a NaN outside must not reach the sums
+    arm_y[l] = inside[l] > 0.0F ? arm_y[l] : 0.0F;
   }
   for (std::size_t l = 0; l < kLanes; ++l) {
     // dS/dtheta = (-sin x - cos y, cos x - sin y) = (-arm_y, arm_x)

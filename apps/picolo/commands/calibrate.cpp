@@ -96,6 +96,20 @@ void add_calibrate(CLI::App& app, Action& action) {
       ->capture_default_str()
       ->check(CLI::PositiveNumber);
 
+  CLI::App* track =
+      subcommand(*group, "track", "Wheel radii and track width from positions that a tracker saw",
+                 o, action, calibrate_track_command, options);
+  take_file(*track, o, "Log with TICKS lines and REFMM lines 't x y' (mm) of a tracker");
+  track->add_option("--nominal-radius", o.nominal_radius_m, "Of both wheels, before (0.1)")
+      ->check(CLI::PositiveNumber);
+  track->add_option("--nominal-track", o.nominal_track_m, "Track width before (0.5)")
+      ->check(CLI::PositiveNumber);
+  track
+      ->add_option("--fit-share", o.fit_share,
+                   "Share of the recording that is fitted; the rest only judges")
+      ->capture_default_str()
+      ->check(CLI::Range(0.1, 1.0));
+
   CLI::App* routine = subcommand(
       *group, "routine", "A log through the routine that runs on the target while one drives", o,
       action, calibrate_routine_command, options);

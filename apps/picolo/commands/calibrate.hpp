@@ -25,6 +25,9 @@ struct CalibrateOptions {
   double ticks_per_turn = 0.0;
   double max_offset_s = 0.5;
   bool single_pass = false;
+  double fit_share = 1.0;
+  double nominal_radius_m = 0.1;
+  double nominal_track_m = 0.5;
   double collect_share = 0.85;  ///< of a log; the rest is fresh data to verify by
 };
 
@@ -34,6 +37,7 @@ ExitCode calibrate_linear_command(const CalibrateOptions& options);
 ExitCode calibrate_extrinsic_command(const CalibrateOptions& options);
 ExitCode calibrate_time_offset_command(const CalibrateOptions& options);
 ExitCode calibrate_routine_command(const CalibrateOptions& options);
+ExitCode calibrate_track_command(const CalibrateOptions& options);
 ExitCode calibrate_memory_command(const CalibrateOptions& options);
 
 /// Pictures of wheels with equal radii, of the lidar, and of the calibrated wheels.

@@ -69,6 +69,11 @@ class DriveReader {
       drive_.gyro.push_back({values_[0], values_[3]});
       return true;
     }
+    if (line.starts_with("REFMM ")) {
+      if (!rest(6) || values_.size() < 3) { return false; }
+      drive_.track.push_back({values_[0], 1e-3 * values_[1], 1e-3 * values_[2]});
+      return true;
+    }
     if (line.starts_with("SCANMM ")) { return rest(7) && scan_mm(); }
     if (line.starts_with("FLASER ") || line.starts_with("ROBOTLASER1 ")) {
       carmen = true;

@@ -11,6 +11,7 @@
 
 #include "picolo/calibration/samples.hpp"
 #include "picolo/calibration/time_offset.hpp"
+#include "picolo/calibration/track_batch.hpp"
 #include "picolo/host/diagnostics.hpp"
 
 namespace picolo::tool {
@@ -44,13 +45,14 @@ struct DriveFile {
   std::vector<WheelAngles> wheels;
   std::vector<PointScan> scans;
   std::vector<GyroRow> gyro;
+  std::vector<TrackPosition> track;
   std::vector<std::vector<double>>
       pairs;  ///< rows of six numbers, when the file holds nothing else
   std::string damage;
 };
 
-/// TICKS t left right, ENC t FR FL RR RL, IMU t wx wy wz ..., SCANMM t n ranges, FLASER,
-/// ROBOTLASER1, or plain rows of six numbers. `ticks_per_turn` 0: angles are counts. Throws
+/// TICKS t left right, ENC t FR FL RR RL, IMU t wx wy wz ..., SCANMM t n ranges, REFMM t x y,
+/// FLASER, ROBOTLASER1, or plain rows of six numbers. `ticks_per_turn` 0: angles are counts. Throws
 /// UserError (input) when nothing of it is found.
 [[nodiscard]] DriveFile read_drive(const std::string& path, double ticks_per_turn,
                                    host::Diagnostics& diagnostics);

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "calibration_log.hpp"
 #include "room_log.hpp"
 #include "support/data.hpp"
 #include "tool_run.hpp"
@@ -138,11 +139,62 @@ TEST(CalibrateExtrinsic, FindsTheMountOfAWrittenDrive) {
   expect_pictures(folder);
 }
 
+TEST(CalibrateRoutine, ALogThatShowsEverythingIsAccepted) {
+  const TemporaryFolder folder;
+  const std::string log =
+      folder.write("drive.clf", test::calibration_log(test::sufficient_log_legs()));
+  const auto run =
+      run_tool(folder, {"calibrate", "routine", log, "--ticks-per-turn", "20000", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err << run.out;
+  const host::Json json = run.json();
+  const auto value = [&](const char* key) { return json.at(key).at("value").get<double>(); };
+  const DriveParameters& truth = test::kLogDrive;
+  EXPECT_NEAR(value("axle"), truth.track_m, 2e-3 * truth.track_m);
+  EXPECT_NEAR(value("l_diam"), 2.0 * truth.radius_left_m, 4e-3 * truth.radius_left_m);
+  EXPECT_NEAR(value("r_diam"), 2.0 * truth.radius_right_m, 4e-3 * truth.radius_right_m);
+  EXPECT_NEAR(value("l_x"), truth.base_T_lidar.x_m, 0.004);
+  EXPECT_NEAR(value("l_y"), truth.base_T_lidar.y_m, 0.004);
+  EXPECT_NEAR(value("l_theta"), truth.base_T_lidar.theta_rad, 0.004);
+  EXPECT_NEAR(value("time_offset"), test::kLogLidarAge_s, 0.002);
+  EXPECT_EQ(json.at("phase"), "done");
+  EXPECT_TRUE(json.at("refused").is_null());
+  expect_plain_numbers(run.out);
+  expect_pictures(folder);
+}
+
+TEST(CalibrateRoutine, ALogWithoutTurnsIsRefusedByName) {
+  const TemporaryFolder folder;
+  const std::string log = folder.write(
+      "straight.clf", test::calibration_log({{4, 4, 6}, {-4, -4, 6}, {4, 4, 6}, {-4, -4, 6}}));
+  const auto run = run_tool(folder, {"calibrate", "routine", log, "--ticks-per-turn", "20000"});
+  EXPECT_EQ(run.exit_code, 1);
+  EXPECT_THAT(run.err, HasSubstr("refused: track_width is not determined: only straight driving"));
+  EXPECT_THAT(run.out, HasSubstr("turn on the spot to the left"));
+}
+
+TEST(CalibrateTrack, TheRecordingsOwnCameraGivesTheWheels) {
+  PICOLO_NEED_DATA("calib/lego_robot4.txt.gz");
+  const TemporaryFolder folder;
+  const std::string log = data_path("calib/lego_robot4.txt.gz");
+  const auto run = run_tool(folder, {"calibrate", "track", log, "--nominal-radius", "0.000349",
+                                     "--nominal-track", "0.150", "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_GT(run.json().at("rms_before_m").get<double>(), 0.4);
+  EXPECT_LT(run.json().at("rms_after_m").get<double>(), 0.026) << "best fit known before";
+  EXPECT_NEAR(run.json().at("b").at("value").get<double>(), 0.173, 0.002) << "the lecture's track";
+  expect_pictures(folder);
+  const auto half = run_tool(folder, {"calibrate", "track", log, "--nominal-radius", "0.000349",
+                                      "--nominal-track", "0.150", "--fit-share", "0.5", "--json"});
+  ASSERT_EQ(half.exit_code, 0) << half.err;
+  EXPECT_LT(half.json().at("rms_whole_recording_m").get<double>(), 0.070)
+      << "the other half was not fitted";
+}
+
 TEST(CalibrateMemory, NamesEveryEstimator) {
   const TemporaryFolder folder;
   const auto run = run_tool(folder, {"calibrate", "memory", "--json"});
   ASSERT_EQ(run.exit_code, 0) << run.err;
-  for (const char* name : {"linear", "wheels", "extrinsic", "joint", "motion_check"}) {
+  for (const char* name : {"linear", "wheels", "extrinsic", "joint", "motion_check", "gyro"}) {
     EXPECT_GT(run.json().at("bytes").at(name).get<int>(), 100) << name;
     EXPECT_LT(run.json().at("bytes").at(name).get<int>(), 8192) << name;
   }

@@ -147,6 +147,51 @@ TEST(CalibrationRecord, EveryFlippedBitAndEveryBurstUpTo32BitsIsSeen) {
   EXPECT_GT(checked, 100'000U);
 }
 
+/// What the stored CRC disagrees by when one bit is flipped: linear in the flips, since the CRC is.
+std::uint32_t syndrome(std::size_t bit) {
+  constexpr std::size_t kCovered = kCalibrationRecordSize - 8;
+  std::array<std::uint8_t, kCovered> zero{};
+  std::array<std::uint8_t, kCovered> one{};
+  if (bit >= 8 * kCovered) { return 1U << (bit - 8 * kCovered); }
+  one[bit / 8] = static_cast<std::uint8_t>(1U << (bit % 8));
+  return crc32(one) ^ crc32(zero);
+}
+
+// No flips within 32 neighbouring bits cancel: their syndromes are independent in every window.
+TEST(CalibrationRecord, EveryPatternOfEveryBurstUpTo32BitsIsSeen) {
+  constexpr std::size_t kBits = 8 * (kCalibrationRecordSize - 4);
+  std::vector<std::uint32_t> all(kBits);
+  for (std::size_t bit = 0; bit < kBits; ++bit) { all[bit] = syndrome(bit); }
+  for (std::size_t begin = 0; begin + 32 <= kBits; ++begin) {
+    std::array<std::uint32_t, 32> basis{};  // by highest bit
+    int rank = 0;
+    for (std::size_t k = 0; k < 32; ++k) {
+      std::uint32_t v = all[begin + k];
+      for (std::size_t high = 32; high-- > 0 && v != 0;) {
+        if (((v >> high) & 1U) == 0) { continue; }
+        if (basis[high] == 0) {
+          basis[high] = v;
+          ++rank;
+          v = 0;
+        } else {
+          v ^= basis[high];
+        }
+      }
+    }
+    ASSERT_EQ(rank, 32) << "window at bit " << begin;
+  }
+}
+
+// The one burst that changes which bytes the CRC covers: version and length of version 1.
+TEST(CalibrationRecord, ABurstThatMakesItLookOlderIsSeen) {
+  std::array<std::uint8_t, kCalibrationRecordSize> bytes{};
+  encode_record(numbered(5), 77, bytes);
+  store_u16_le(bytes, 4, 1);
+  store_u16_le(bytes, 6, 120);
+  DecodedRecord decoded;
+  EXPECT_EQ(decode_record(bytes, decoded), Status::corrupt);
+}
+
 /// Rewrites the version and the CRC, as another firmware would have written them.
 void rewrite(std::span<std::uint8_t> bytes, std::uint16_t version, std::uint16_t payload) {
   store_u16_le(bytes, 4, version);

@@ -72,6 +72,7 @@ void CalibrationRoutine::look(Timestamp now) {
     case 2:
       static_cast<void>(gyro_clock_.core().solve_nearby(gyro_offset_report_));
       static_cast<void>(gyro_.solve(gyro_report_));
+      static_cast<void>(mount_.solve(mount_report_));
       break;
     default: look_at_progress(); break;
   }
@@ -156,6 +157,7 @@ void CalibrationRoutine::look_at_progress() {
   clock(Parameter::gyro_offset, gyro_offset_report_);
   set(Parameter::gyro_bias, gyro_report_.bias_refusal ? 0.0 : 1.0,
       gyro_report_.bias_refusal.reason);
+  set(Parameter::gyro_yaw, mount_report_.refusal ? 0.0 : 1.0, mount_report_.refusal.reason);
   const double std = gyro_report_.scale.std;
   const double target = config_.target_scale_std;
   set(Parameter::gyro_scale,

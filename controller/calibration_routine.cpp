@@ -42,6 +42,10 @@ Status CalibrationRoutine::start(Timestamp now) {
   offset_report_ = {};
   gyro_offset_report_ = {};
   gyro_report_ = {};
+  mount_.reset();
+  mount_report_ = {};
+  felt_ = {};
+  felt_before_ = {};
   record_ = {};
   held_ = 0;
   percent_.fill(0);
@@ -118,6 +122,7 @@ void CalibrationRoutine::add(const ImuSample& sample) {
     gyro_.add_standing(rate);
   }
   gyro_angle_.core().add(stamp_s, rate);
+  feel(stamp_s, sample);
   const Result<double> angle = gyro_angle_.core().at(stamp_s);
   if (!angle) { return; }
   if (!gyro_heard_) {

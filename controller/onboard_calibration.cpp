@@ -11,7 +11,7 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr std::size_t kAlways = 7;  // values told with or without a gyro
-constexpr std::size_t kWithGyro = 10;
+constexpr std::size_t kWithGyro = 11;
 
 }  // namespace
 
@@ -111,7 +111,8 @@ CalibrationValue OnboardCalibrationCore::value(std::size_t index) const {
       return {Parameter::time_offset, {found.time_offset_s, routine_.offset_report().offset_s.std}};
     case 7: return {Parameter::gyro_bias, routine_.gyro_report().bias_radps};
     case 8: return {Parameter::gyro_scale, routine_.gyro_report().scale};
-    default: return {Parameter::gyro_offset, routine_.gyro_offset_report().offset_s};
+    case 9: return {Parameter::gyro_offset, routine_.gyro_offset_report().offset_s};
+    default: return {Parameter::gyro_yaw, routine_.mount_report().yaw_rad};
   }
 }
 

@@ -74,7 +74,7 @@ void draw_calibration(const std::filesystem::path& folder, const std::string& ti
   path.title = title + ": path";
   path.note = fmt::format("{} poses", corrected.size());
   path.lines.push_back(host::trajectory_line(odometry, kOdometryGreen, 2.0, "odometry"));
-  path.lines.push_back(host::trajectory_line(lidar, kLidarYellow, 3.0, "lidar"));
+  path.lines.push_back(host::trajectory_line(lidar, kLidarYellow, 3.0, residuals.reference));
   path.lines.push_back(host::trajectory_line(corrected, kCorrectedRed, 2.0, "corrected odometry"));
   write_picture(path, folder, "path");
 }

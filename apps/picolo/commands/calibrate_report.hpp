@@ -31,6 +31,7 @@ struct Residuals {
   std::vector<Point2<double>> after_m;
   std::string title = "residuals of the displacement between two scans";
   std::string note = "displacements; metres, predicted against measured";
+  std::string reference = "lidar";  ///< whose path is yellow
 };
 
 /// residuals and path pictures: odometry green, lidar yellow, corrected red.

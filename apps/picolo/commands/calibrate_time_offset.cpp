@@ -110,6 +110,7 @@ void draw(const DriveFile& drive, const std::vector<Interval>& intervals,
   const double scale_m = metres_a_radian(drive, intervals, report);
   Residuals residuals;
   residuals.title = "rotation seen minus rotation of the wheels, over the rotation seen";
+  residuals.reference = gyro ? "gyro" : "lidar";
   residuals.note = "intervals; rad; green: clocks as they are, red: offset taken out";
   host::Trajectory odometry, second, corrected;
   Pose2d a, b, c;

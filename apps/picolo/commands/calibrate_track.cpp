@@ -40,6 +40,7 @@ void draw(const DriveFile& drive, const CalibrateOptions& options, const TrackRe
   Residuals residuals;
   residuals.title = "dead reckoning minus tracker";
   residuals.note = "positions; metres";
+  residuals.reference = "tracker";
   for (std::size_t k = 0; k < drive.track.size(); ++k) {
     const TrackPosition& p = drive.track[k];
     seen.push_back({p.stamp_s, {p.x_m, p.y_m, 0.0}});

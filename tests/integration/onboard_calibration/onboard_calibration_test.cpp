@@ -138,6 +138,11 @@ TEST(OnboardCalibration, IsStartedWatchedAndFinishedOverCan) {
   EXPECT_NEAR(record.drive.base_T_lidar.y_m, truth.lidar.base_T_lidar.y_m, 0.003);
   EXPECT_NEAR(record.drive.base_T_lidar.theta_rad, truth.lidar.base_T_lidar.theta_rad, 0.003);
 
+  const ImuMountReport& mount = routine.mount_report();
+  std::printf("IMU yaw %.4f +- %.4f\n", mount.yaw_rad.value, mount.yaw_rad.std);
+  ASSERT_FALSE(mount.refusal) << to_string(mount.refusal.reason);
+  EXPECT_NEAR(mount.yaw_rad.value, 0.0, 0.03);
+
   ControllerConfig better = simulated_vehicle_config();
   apply(record, better);
   EXPECT_TRUE(better.valid());

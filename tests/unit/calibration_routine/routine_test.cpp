@@ -67,7 +67,7 @@ TEST(CalibrationRoutine, ADriverWhoFollowsTheAdviceGetsTheTruthStored) {
   EXPECT_GE(within, 57) << "of 60: two standard deviations are the accuracy asked for";
   std::printf("longest commissioning %.0f s, routine %zu bytes\n", longest_s,
               sizeof(CalibrationRoutine));
-  static_assert(sizeof(CalibrationRoutine) < 26U * 1024U);
+  static_assert(sizeof(CalibrationRoutine) < 27U * 1024U);
 }
 
 struct Insufficient {

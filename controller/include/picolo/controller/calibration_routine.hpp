@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "picolo/calibration/gyro_calibration.hpp"
+#include "picolo/calibration/imu_mount.hpp"
 #include "picolo/calibration/joint_streaming.hpp"
 #include "picolo/calibration/record.hpp"
 #include "picolo/calibration/time_offset.hpp"
@@ -69,7 +70,7 @@ struct CalibrationRoutineConfig {
 
 /// Listens to the same samples as the pose estimate and touches nothing of it: what it finds is in
 /// `record` and, with a store, in the store; it counts from the next start on. A run that is
-/// refused or aborted leaves the store as it was. State: about 24 KiB whatever the length of the
+/// refused or aborted leaves the store as it was. State: about 26 KiB whatever the length of the
 /// drive.
 /// Cost: `add` O(1); a `step` at most some 2500 floating-point operations in double. Context: cycle
 /// only.
@@ -121,6 +122,8 @@ class CalibrationRoutine {
   [[nodiscard]] const TimeOffsetReport& offset_report() const { return offset_report_; }
   [[nodiscard]] const TimeOffsetReport& gyro_offset_report() const { return gyro_offset_report_; }
   [[nodiscard]] const GyroReport& gyro_report() const { return gyro_report_; }
+  /// Of the IMU; told, but a calibration is complete without it.
+  [[nodiscard]] const ImuMountReport& mount_report() const { return mount_report_; }
   [[nodiscard]] bool gyro_heard() const { return gyro_heard_; }
   [[nodiscard]] Duration elapsed(Timestamp now) const { return now - origin_; }
   [[nodiscard]] std::uint32_t scans() const { return scans_; }
@@ -133,6 +136,18 @@ class CalibrationRoutine {
     double end_s = 0.0;
     Pose2d motion{};
   };
+  /// Sums of accelerations felt in a quarter of a second.
+  struct FeltWindow {
+    double begin_s = 0.0;
+    double end_s = 0.0;
+    double x_mps2 = 0.0;
+    double y_mps2 = 0.0;
+    double samples = 0.0;
+  };
+  struct BaseSpeed {
+    double forward_mps = 0.0;
+    double omega_radps = 0.0;
+  };
   static constexpr std::size_t kWaitingScans = 8;
   static constexpr std::size_t kIndexes = kCalibrationParameters;
 
@@ -144,6 +159,9 @@ class CalibrationRoutine {
   [[nodiscard]] bool take_scan();
   void use(const MotionSample& sample);
   void learn_gyro(const Scan& scan);
+  void feel(double stamp_s, const ImuSample& sample);
+  void close_felt();
+  [[nodiscard]] bool speed_at(double stamp_s, BaseSpeed& speed) const;
   void wait_for_standstill(Timestamp now);
   bool collect(Timestamp now);
   void look(Timestamp now);
@@ -171,6 +189,10 @@ class CalibrationRoutine {
   TimeOffsetReport offset_report_{};
   TimeOffsetReport gyro_offset_report_{};
   GyroReport gyro_report_{};
+  ImuMountCalibration mount_;
+  ImuMountReport mount_report_{};
+  FeltWindow felt_{};
+  FeltWindow felt_before_{};
   CalibrationRecord record_{};
   std::array<Scan, kWaitingScans> waiting_{};
   std::size_t first_ = 0;

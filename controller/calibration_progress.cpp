@@ -88,8 +88,7 @@ void CalibrationRoutine::look_at_offset() {
   if (!is_ok(lidar_clock_.core().solve_nearby(offset_report_))) { return; }
   const Estimate& offset = offset_report_.offset_s;
   const double change = magnitude(offset.value - used_offset_s_);
-  if (offset.std > config_.target_offset_std_s ||
-      change <= std::max(config_.max_offset_change_s, 3.0 * offset.std) ||
+  if (change <= std::max(config_.max_offset_change_s, 4.0 * offset.std) ||
       restarts_ == kMaxRestarts) {
     return;
   }
@@ -212,7 +211,7 @@ void CalibrationRoutine::check() {
   } else if (!offset_done) {
     refuse(offset_report_.refusal);
   } else if (magnitude(offset_report_.offset_s.value - used_offset_s_) >
-             std::max(config_.max_offset_change_s, 3.0 * offset_report_.offset_s.std)) {
+             std::max(config_.max_offset_change_s, 4.0 * offset_report_.offset_s.std)) {
     // The clocks became known only now, and the rest was collected with wrong ones.
     refuse({RefusalReason::too_little_data, Parameter::time_offset});
   } else if (config_.use_gyro && gyro_heard_ && gyro_report_.scale_refusal) {

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <memory>
 #include <vector>
 
 #include "commands/calibrate.hpp"
@@ -7,25 +8,50 @@
 #include "commands/calibrate_report.hpp"
 #include "picolo/calibration/joint_batch.hpp"
 #include "picolo/calibration/joint_streaming.hpp"
+#include "picolo/calibration/time_offset.hpp"
 #include "picolo/calibration/wheel_model.hpp"
 #include "picolo/host/error.hpp"
 
 namespace picolo::tool {
 namespace {
 
-/// Rows T phi_l phi_r sm_x sm_y sm_theta, or a log with counters and scans that are matched here.
-std::vector<MotionSample> samples_of(const DriveFile& drive) {
+/// How much older the scans are than their stamps say; 0 where the log does not show it.
+Estimate lidar_age(const DriveFile& drive, const std::vector<ScanStep>& steps) {
+  const auto estimator = std::make_unique<TimeOffset<101, 4096, 4096>>();
+  std::size_t next = 0;
+  const auto wheels_until = [&](double stamp_s) {
+    for (; next < drive.wheels.size() && drive.wheels[next].stamp_s <= stamp_s; ++next) {
+      static_cast<void>(estimator->core().add_wheels(drive.wheels[next]));
+    }
+  };
+  for (const ScanStep& step : steps) {
+    const double end_s = drive.scans[step.scan].stamp_s;
+    wheels_until(end_s);
+    if (!step.converged) { continue; }
+    static_cast<void>(estimator->core().add_rotation(drive.scans[step.scan - 1].stamp_s, end_s,
+                                                     step.lidar_motion.theta_rad));
+  }
+  wheels_until(drive.wheels.back().stamp_s);
+  TimeOffsetReport report;
+  return is_ok(estimator->core().solve(report)) ? report.offset_s : Estimate{};
+}
+
+/// Rows T phi_l phi_r sm_x sm_y sm_theta, or a log with counters and scans that are matched here,
+/// whose clocks are brought together first.
+std::vector<MotionSample> samples_of(const DriveFile& drive, Estimate& age) {
   std::vector<MotionSample> samples;
   for (const auto& row : drive.pairs) {
     samples.push_back({row[0], row[1], row[2], {row[3], row[4], row[5]}});
   }
   if (!samples.empty() || drive.wheels.size() < 2) { return samples; }
-  for (const ScanStep& step : match_scans(drive, {})) {
+  const std::vector<ScanStep> steps = match_scans(drive, {});
+  age = lidar_age(drive, steps);
+  for (const ScanStep& step : steps) {
     const double begin_s = drive.scans[step.scan - 1].stamp_s;
     const double end_s = drive.scans[step.scan].stamp_s;
     if (!step.converged || !(end_s > begin_s)) { continue; }
-    const WheelAngles a = wheels_at(drive.wheels, begin_s);
-    const WheelAngles b = wheels_at(drive.wheels, end_s);
+    const WheelAngles a = wheels_at(drive.wheels, begin_s - age.value);
+    const WheelAngles b = wheels_at(drive.wheels, end_s - age.value);
     const double duration = end_s - begin_s;
     samples.push_back({duration, (b.left_rad - a.left_rad) / duration,
                        (b.right_rad - a.right_rad) / duration, step.lidar_motion});
@@ -64,7 +90,8 @@ void draw_joint(const std::vector<MotionSample>& samples, const DriveParameters&
 ExitCode calibrate_joint_command(const CalibrateOptions& options) {
   host::Diagnostics diagnostics;
   const DriveFile drive = read_drive(options.file, options.ticks_per_turn, diagnostics);
-  const std::vector<MotionSample> samples = samples_of(drive);
+  Estimate age;
+  const std::vector<MotionSample> samples = samples_of(drive, age);
   if (samples.empty()) {
     throw host::UserError{
         ExitCode::input, drive.name, "holds no pair of scans with wheel counters around them",
@@ -87,7 +114,9 @@ ExitCode calibrate_joint_command(const CalibrateOptions& options) {
     }
   }
   draw_joint(samples, report.drive, "Wheels and lidar together", options.common.out);
-  print_calibration(joint_json(report), options.common.json, options.common.out);
+  host::Json json = joint_json(report);
+  if (drive.pairs.empty()) { json["time_offset"] = to_json(age); }
+  print_calibration(json, options.common.json, options.common.out);
   return end_of_calibration(report.refusal, drive.name, drive.damage);
 }
 

@@ -39,6 +39,7 @@ ExitCode run(int argc, char** argv) {
       "record, 4 device or disk failed. 'picolo COMMAND --help' explains a command by examples.");
   Action action;
   add_demo(app, action);
+  add_decode(app, action);
   add_replay(app, action);
   add_match(app, action);
   add_calibrate(app, action);

@@ -30,6 +30,7 @@ ExitCode end_of_input(const std::string& name, const std::string& damage);
 
 /// Adds the command; when the command line names it, `action` is set to what is to be done.
 using Action = std::function<ExitCode()>;
+void add_decode(CLI::App& app, Action& action);
 void add_demo(CLI::App& app, Action& action);
 void add_replay(CLI::App& app, Action& action);
 void add_match(CLI::App& app, Action& action);

@@ -31,6 +31,13 @@ CanopenWheels::CanopenWheels(CanBus& bus, const CanopenWheelsConfig& config)
           find_field(wheel.mapping, wheel.velocity_index, wheel.velocity_subindex).value_or({});
     }
     wheels_[i].node = add_node(wheel.node);
+    bool shared = false;
+    for (std::size_t k = 0; k < i; ++k) {
+      shared = shared || config.wheels[k].pdo_id() == wheel.pdo_id();
+    }
+    if (shared) { continue; }
+    setups_[i] = canopen::PdoSetup{wheel.node, wheel.pdo_number(), wheel.pdo_id(), wheel.mapping,
+                                   config.setup};
   }
 }
 
@@ -74,6 +81,9 @@ bool CanopenWheels::consume_node_message(const CanFrame& frame) {
       return true;
     }
   }
+  for (std::size_t i = 0; i < wheels(); ++i) {
+    if (!setups_[i].done() && setups_[i].consume(frame)) { return true; }
+  }
   return false;
 }
 
@@ -84,7 +94,11 @@ void CanopenWheels::consume_heartbeat(std::size_t node, const CanFrame& frame) {
     return;
   }
   nodes_[node].heartbeat(frame.stamp, *state);
-  if (*state == canopen::NmtState::boot_up) { restart_wheels(node); }
+  if (*state != canopen::NmtState::boot_up) { return; }
+  restart_wheels(node);
+  for (std::size_t i = 0; i < wheels(); ++i) {
+    if (wheels_[i].node == node) { setups_[i].restart(); }
+  }
 }
 
 void CanopenWheels::consume_emergency(std::size_t node, const CanFrame& frame) {
@@ -192,11 +206,44 @@ Status CanopenWheels::service_sync(Timestamp now) {
   return Status::ok;
 }
 
+bool CanopenWheels::set_up(std::size_t node) const {
+  for (std::size_t i = 0; i < wheels(); ++i) {
+    if (wheels_[i].node == node && !setups_[i].done()) { return false; }
+  }
+  return true;
+}
+
+/// One request at a time and node.
+Status CanopenWheels::service_setup(std::size_t node, Timestamp now) {
+  constexpr Duration kHaltRetry = 500ms;
+  const canopen::NodeHealth& health = nodes_[node].health();
+  if (health.state == canopen::NodeState::operational) {
+    // It runs already: mappings can only be changed before.
+    if (now < next_halt_[node]) { return Status::ok; }
+    next_halt_[node] = now + kHaltRetry;
+    return send(canopen::nmt_frame(canopen::NmtCommand::enter_pre_operational, health.node));
+  }
+  for (std::size_t i = 0; i < wheels(); ++i) {
+    if (wheels_[i].node != node || setups_[i].done()) { continue; }
+    CanFrame frame;
+    if (!setups_[i].next(now, frame)) { return Status::ok; }
+    const Status status = send(frame);
+    if (is_ok(status)) { setups_[i].sent(now); }
+    return status;
+  }
+  return Status::ok;
+}
+
 Status CanopenWheels::service(Timestamp now) {
   Status result = config_.produce_sync ? service_sync(now) : Status::ok;
   for (std::size_t i = 0; i < node_count_; ++i) {
     canopen::NodeMonitor& node = nodes_[i];
     node.service(now);
+    if (!set_up(i)) {
+      const Status status = service_setup(i, now);
+      if (!is_ok(status)) { result = status; }
+      continue;
+    }
     if (!node.start_due(now)) { continue; }
     const Status status = send(canopen::nmt_frame(canopen::NmtCommand::start, node.health().node));
     if (is_ok(status)) {
@@ -222,6 +269,7 @@ bool CanopenWheels::healthy() const {
 CanopenWheelsCounters CanopenWheels::counters() const {
   CanopenWheelsCounters counters = counters_;
   counters.unpaired = pairing_.unpaired();
+  for (const canopen::PdoSetup& setup : setups_) { counters.setup_failures += setup.failures(); }
   return counters;
 }
 
@@ -232,6 +280,9 @@ CanopenWheels::Filters CanopenWheels::filters() const {
     const std::uint8_t node = nodes_[i].health().node;
     static_cast<void>(filters.push_back({.id = canopen::emergency_id(node)}));
     static_cast<void>(filters.push_back({.id = canopen::heartbeat_id(node)}));
+    if (config_.setup.enabled) {
+      static_cast<void>(filters.push_back({.id = canopen::sdo_answer_id(node)}));
+    }
   }
   for (std::size_t i = 0; i < wheels(); ++i) {
     const std::uint32_t id = config_.wheels[i].pdo_id();

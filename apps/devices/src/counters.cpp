@@ -50,6 +50,23 @@ Counters to_list(const CanopenWheelsCounters& c) {
           {"syncs_sent", c.syncs_sent},
           {"syncs_skipped", c.syncs_skipped},
           {"sync_conflicts", c.sync_conflicts},
+          {"tx_refused", c.tx_refused},
+          {"setup_failures", c.setup_failures}};
+}
+
+Counters to_list(const CanWheelsCounters& c) {
+  return {{"frames", c.frames},
+          {"samples", c.samples},
+          {"replaced", c.replaced},
+          {"foreign", c.foreign},
+          {"short_frames", c.short_frames},
+          {"damaged", c.damaged},
+          {"missed", c.missed},
+          {"unpaired", c.unpaired},
+          {"out_of_range", c.out_of_range},
+          {"jumps", c.jumps},
+          {"losses", c.losses},
+          {"requests", c.requests},
           {"tx_refused", c.tx_refused}};
 }
 

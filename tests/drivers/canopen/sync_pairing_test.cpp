@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/drivers/canopen/sync_pairing.hpp"
+#include "picolo/drivers/common/sync_pairing.hpp"
 
 #include <gtest/gtest.h>
 

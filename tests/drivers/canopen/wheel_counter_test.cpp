@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/drivers/canopen/wheel_counter.hpp"
+#include "picolo/drivers/common/wheel_counter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -83,7 +83,7 @@ class Wheels {
 
 /// What does not apply to a device is ignored; 0 and empty = the device's own default.
 struct LidarSettings {
-  std::string mode;  ///< rplidar: standard, express, ultra, dense; ydlidar: x4, tmini, scl
+  std::string mode{};  ///< rplidar: standard, express, ultra, dense; ydlidar: x4, tmini, scl
   std::uint32_t samples_per_second = 0;
   std::uint16_t motor_pwm = 0;  ///< rplidar A2, A3
   std::uint16_t motor_rpm = 0;  ///< rplidar S, C
@@ -99,12 +99,15 @@ struct WheelsSettings {
   std::uint32_t right_id = 2;  ///< the same as left_id: one dual drive (CANopen)
   bool left_inverted = false;
   bool right_inverted = false;
-  bool produce_sync = false;          ///< CANopen: nobody else sends SYNC
-  std::uint32_t pole_pairs = 7;       ///< VESC
-  std::uint32_t counts_per_turn = 0;  ///< ODrive: of its virtual counter
-  std::string dbc_file;               ///< dbc: the file, and MESSAGE.SIGNAL of each wheel
-  std::string left_signal;
-  std::string right_signal;
+  bool produce_sync = false;     ///< CANopen: nobody else sends SYNC
+  bool set_up_nodes = false;     ///< CANopen: write mapping and transmission type to the nodes
+  std::uint32_t pole_pairs = 7;  ///< VESC
+  /// ODrive: ticks that a turn is made of. DBC: where a position wraps, when not at its bits.
+  std::uint32_t counts_per_turn = 0;
+  std::string dbc_file{};  ///< dbc: the file, and MESSAGE.SIGNAL of each wheel
+  std::string left_signal{};
+  std::string right_signal{};
+  double speed_ticks_per_unit = 0.0;  ///< dbc: above 0, the signals are speeds in their own unit
 };
 
 /// Everything referred to outlives the driver. Throws std::invalid_argument with the cause and the
@@ -115,5 +118,12 @@ struct WheelsSettings {
                                             const ImuSettings& settings = {});
 [[nodiscard]] std::unique_ptr<Wheels> make_wheels(const std::string& name, CanBus& bus,
                                                   const WheelsSettings& settings = {});
+
+/// Two consumers of one bus that want the same identifier, in words; empty when there are none.
+struct BusUser {
+  std::string name;
+  std::vector<CanFilter> filters;
+};
+[[nodiscard]] std::string describe_overlap(const std::vector<BusUser>& users);
 
 }  // namespace picolo::inline v0::devices

@@ -14,8 +14,8 @@
 #include "picolo/core/time.hpp"
 #include "picolo/drivers/canopen/canopen_wheels_config.hpp"
 #include "picolo/drivers/canopen/node_monitor.hpp"
-#include "picolo/drivers/canopen/sync_pairing.hpp"
-#include "picolo/drivers/canopen/wheel_counter.hpp"
+#include "picolo/drivers/common/sync_pairing.hpp"
+#include "picolo/drivers/common/wheel_counter.hpp"
 #include "picolo/hal/can_bus.hpp"
 #include "picolo/hal/can_filter.hpp"
 #include "picolo/sensing/wheel_ticks.hpp"
@@ -40,12 +40,13 @@ struct CanopenWheelsCounters {
   std::uint32_t syncs_skipped = 0;
   std::uint32_t sync_conflicts = 0;  ///< SYNC of somebody else while we produce it
   std::uint32_t tx_refused = 0;      ///< frames that the bus did not take
+  std::uint32_t setup_failures = 0;  ///< nodes that refused their mapping or did not answer
 };
 
 /// Polling shell. `consume` takes one frame, `service` does what time asks for. The caller either
 /// drains the bus once and offers each frame to all of its consumers, or lets `poll` do both for a
 /// bus of its own.
-/// Precondition: config.valid(). Context: one at a time. Memory: 1.4 KiB, no heap.
+/// Precondition: config.valid(). Context: one at a time. Memory: 2.2 KiB, no heap.
 class CanopenWheels {
  public:
   CanopenWheels(CanBus& bus, const CanopenWheelsConfig& config);
@@ -70,6 +71,10 @@ class CanopenWheels {
   [[nodiscard]] const canopen::NodeHealth& node(std::size_t index) const {
     return nodes_[index].health();
   }
+  /// Why the TPDO of a wheel could not be set up: CANopen's abort code, 0 = none or no answer.
+  [[nodiscard]] std::uint32_t setup_abort_code(std::size_t wheel) const {
+    return setups_[wheel].abort_code();
+  }
   /// Every node is operational.
   [[nodiscard]] bool healthy() const;
   /// Last velocity that a TPDO carried, in the drive's own unit, sign as the drive sent it; 0
@@ -77,8 +82,9 @@ class CanopenWheels {
   [[nodiscard]] std::int64_t velocity(std::size_t wheel) const { return velocities_[wheel]; }
   [[nodiscard]] CanopenWheelsCounters counters() const;
 
-  /// What this driver listens to: SYNC, then emergencies, heartbeats and TPDOs.
-  using Filters = FixedVector<CanFilter, 1 + 3 * kMaxWheels>;
+  /// What this driver listens to: SYNC, then emergencies, heartbeats and TPDOs; answers to its
+  /// requests where it sets the nodes up.
+  using Filters = FixedVector<CanFilter, 1 + 4 * kMaxWheels>;
   [[nodiscard]] Filters filters() const;
 
  private:
@@ -101,6 +107,8 @@ class CanopenWheels {
   void publish(const Result<WheelTicks>& sample);
   Status send(const CanFrame& frame);
   Status service_sync(Timestamp now);
+  Status service_setup(std::size_t node, Timestamp now);
+  [[nodiscard]] bool set_up(std::size_t node) const;
 
   CanBus& bus_;
   CanopenWheelsConfig config_;
@@ -108,6 +116,8 @@ class CanopenWheels {
   std::array<Wheel, kMaxWheels> wheels_{};
   std::array<std::int64_t, kMaxWheels> velocities_{};
   std::array<canopen::NodeMonitor, kMaxWheels> nodes_{};
+  std::array<canopen::PdoSetup, kMaxWheels> setups_{};  ///< by wheel; disabled where shared
+  std::array<Timestamp, kMaxWheels> next_halt_{};       ///< by node
   std::size_t node_count_ = 0;
   Result<WheelTicks> sample_{Status::not_ready};
   Timestamp next_sync_ = Timestamp::min();

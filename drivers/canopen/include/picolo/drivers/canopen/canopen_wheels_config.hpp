@@ -12,8 +12,9 @@
 #include "picolo/drivers/canopen/cob_id.hpp"
 #include "picolo/drivers/canopen/node_monitor.hpp"
 #include "picolo/drivers/canopen/pdo_mapping.hpp"
-#include "picolo/drivers/canopen/sync_pairing.hpp"
-#include "picolo/drivers/canopen/wheel_counter.hpp"
+#include "picolo/drivers/canopen/pdo_setup.hpp"
+#include "picolo/drivers/common/sync_pairing.hpp"
+#include "picolo/drivers/common/wheel_counter.hpp"
 #include "picolo/sensing/wheel_ticks.hpp"
 
 namespace picolo::inline v0 {
@@ -32,6 +33,13 @@ struct CanopenWheelConfig {
 
   [[nodiscard]] constexpr std::uint16_t pdo_id() const {
     return cob_id != 0 ? cob_id : canopen::tpdo_id(1, node);
+  }
+  /// 1 to 4: which of the node's TPDOs it is.
+  [[nodiscard]] constexpr int pdo_number() const {
+    for (int number = 2; number <= 4; ++number) {
+      if (pdo_id() == canopen::tpdo_id(number, node)) { return number; }
+    }
+    return 1;
   }
   [[nodiscard]] constexpr bool valid() const {
     const auto position = canopen::find_field(mapping, position_index, position_subindex);
@@ -60,6 +68,7 @@ struct CanopenWheelsConfig {
   std::uint8_t sync_counter_overflow = 0;
   Duration pair_window = 8ms;  ///< see SyncPairingConfig
   canopen::NodeMonitorConfig nodes{};
+  canopen::PdoSetupConfig setup{};  ///< whether the nodes are taught their TPDOs
 
   [[nodiscard]] constexpr bool valid() const {
     if (wheel_count < 1 || wheel_count > kMaxWheels) { return false; }

@@ -8,7 +8,7 @@
 
 #include "picolo/core/time.hpp"
 
-namespace picolo::inline v0::canopen {
+namespace picolo::inline v0 {
 
 struct WheelCounterConfig {
   /// The position wraps here: 2^32 for CiA 402 counters, the total range (object 0x6002) of an
@@ -57,4 +57,9 @@ class WheelCounter {
   bool has_base_ = false;
 };
 
+}  // namespace picolo::inline v0
+
+namespace picolo::inline v0::canopen {
+using v0::WheelCounter;
+using v0::WheelCounterConfig;
 }  // namespace picolo::inline v0::canopen

@@ -13,7 +13,7 @@
 #include "picolo/core/time.hpp"
 #include "picolo/sensing/wheel_ticks.hpp"
 
-namespace picolo::inline v0::canopen {
+namespace picolo::inline v0 {
 
 struct SyncPairingConfig {
   int wheel_count = 2;
@@ -69,4 +69,9 @@ class SyncPairing {
   std::uint32_t unpaired_ = 0;
 };
 
+}  // namespace picolo::inline v0
+
+namespace picolo::inline v0::canopen {
+using v0::SyncPairing;
+using v0::SyncPairingConfig;
 }  // namespace picolo::inline v0::canopen

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/drivers/canopen/sync_pairing.hpp"
+#include "picolo/drivers/common/sync_pairing.hpp"
 
 #include <algorithm>
 #include <bit>
 
-namespace picolo::inline v0::canopen {
+namespace picolo::inline v0 {
 namespace {
 
 constexpr std::uint8_t bit(std::size_t wheel) {
@@ -74,4 +74,4 @@ void SyncPairing::forget(std::size_t wheel) {
   }
 }
 
-}  // namespace picolo::inline v0::canopen
+}  // namespace picolo::inline v0

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-#include "picolo/drivers/canopen/wheel_counter.hpp"
+#include "picolo/drivers/common/wheel_counter.hpp"
 
 #include <algorithm>
 
 #include "picolo/core/bytes.hpp"
 
-namespace picolo::inline v0::canopen {
+namespace picolo::inline v0 {
 namespace {
 
 constexpr std::int64_t kMicrosPerSecond = 1'000'000;
@@ -51,4 +51,4 @@ WheelCounter::Step WheelCounter::update(Timestamp stamp, std::int64_t position) 
   return Step::moved;
 }
 
-}  // namespace picolo::inline v0::canopen
+}  // namespace picolo::inline v0

@@ -15,7 +15,7 @@ WheelCollectorConfig collector_config(const OdriveWheelsConfig& config) {
                                  .pair_window = config.pair_window};
   for (std::size_t i = 0; i < static_cast<std::size_t>(config.wheel_count); ++i) {
     collector.wheels[i].inverted = config.wheels[i].inverted;
-    collector.wheels[i].max_counts_per_s = config.counts_per_turn * config.max_turns_per_s;
+    collector.wheels[i].max_counts_per_s = config.max_counts_per_s;
   }
   return collector;
 }

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <stdexcept>
 
 #include "counters.hpp"
@@ -56,7 +57,10 @@ std::unique_ptr<Wheels> make_odrive(CanBus& bus, const WheelsSettings& settings)
   config.wheels[0] = {static_cast<std::uint8_t>(settings.left_id & 0xFFU), settings.left_inverted};
   config.wheels[1] = {static_cast<std::uint8_t>(settings.right_id & 0xFFU),
                       settings.right_inverted};
+  constexpr std::uint32_t kMaxTurnsPerSecond = 200;
+  constexpr std::uint32_t kMaxCounts = 0xFFFFFFFFU / kMaxTurnsPerSecond;
   if (settings.counts_per_turn > 0) { config.counts_per_turn = settings.counts_per_turn; }
+  config.max_counts_per_s = std::min(config.counts_per_turn, kMaxCounts) * kMaxTurnsPerSecond;
   if (settings.left_id > kOdriveMaxNode || settings.right_id > kOdriveMaxNode || !config.valid()) {
     refuse("an ODrive setting is out of its domain",
            "use two different nodes from 0 to 63 and 1 to 20000000 counts a turn");

@@ -39,7 +39,7 @@ struct OdriveWheelsConfig {
   OdrivePosition position = OdrivePosition::estimates;
   /// Ticks that a turn of the estimates is made of.
   std::uint32_t counts_per_turn = 4096;
-  std::uint32_t max_turns_per_s = 200;  ///< a step beyond is a restart
+  std::uint32_t max_counts_per_s = 819'200;  ///< a step beyond is a restart
   Duration request_period = 10ms;
   Duration pair_window = 8ms;
   Duration heartbeat_timeout = 500ms;
@@ -51,8 +51,7 @@ struct OdriveWheelsConfig {
         if (wheels[i].node == wheels[k].node) { return false; }
       }
     }
-    return counts_per_turn > 0 && max_turns_per_s > 0 &&
-           counts_per_turn <= 0xFFFFFFFFU / max_turns_per_s && request_period > Duration{0} &&
+    return counts_per_turn > 0 && max_counts_per_s > 0 && request_period > Duration{0} &&
            pair_window > Duration{0} && heartbeat_timeout > Duration{0};
   }
 };

@@ -19,6 +19,17 @@ float square(float x) {
   return x * x;
 }
 
+Matrix3f rotation_of(float theta_rad) {
+  const SinCos<float> yaw = sin_cos(theta_rad);
+  return {{yaw.cosine, -yaw.sine, 0.0F, yaw.sine, yaw.cosine, 0.0F, 0.0F, 0.0F, 1.0F}};
+}
+
+Matrix3f scaled(const Matrix3f& matrix, float factor) {
+  Matrix3f result = matrix;
+  for (float& element : result.elements) { element *= factor; }
+  return result;
+}
+
 bool usable(MatchOutcome outcome) {
   return outcome == MatchOutcome::converged || outcome == MatchOutcome::iteration_limit ||
          outcome == MatchOutcome::degenerate;
@@ -34,10 +45,11 @@ MapConfig coarse_map_config(const MapConfig& fine) {
 }
 
 LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine,
-                             RollingMapCore& coarse)
+                             RollingMapCore& coarse, const SurfaceStorage& surfaces)
     : config_(config),
       fine_(fine),
       coarse_(coarse),
+      surfaces_(surfaces),
       coarse_matcher_(config.coarse),
       fine_matcher_(config.fine),
       search_(config.search.correlative),
@@ -84,6 +96,12 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     return Status::invalid_argument;
   }
   sweep_ = sweep;
+  const std::size_t count = sweep.points.size();
+  if (config_.use_surfaces && count <= surfaces_.along_x.size()) {
+    surface_directions(sweep.points, config_.surface, surfaces_.along_x, surfaces_.along_y);
+    sweep_.points.along_x = surfaces_.along_x.first(count);
+    sweep_.points.along_y = surfaces_.along_y.first(count);
+  }
   ++counters_.sweeps;
   // Kohlbrecher's start: map_T_base(t-1) * odom_T_base(t-1)^-1 * odom_T_base(t).
   const Pose2d motion = between(accepted_odom_T_base_, sweep.odom_T_base);
@@ -116,27 +134,49 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
   return Status::ok;
 }
 
+/// In the base frame at the end of the motion. An error of the heading, spread over the way,
+/// carries the end of the way sideways: the two are correlated, and a wheeled vehicle hardly moves
+/// sideways otherwise.
+Matrix3f LocaliserCore::motion_covariance(const Pose2d& motion) const {
+  const PredictionNoise& noise = config_.noise;
+  const Pose2f back = to_f32(inverse(motion));  // the way in the axes of its end
+  const float squared_distance = square(back.x_m) + square(back.y_m);
+  const float squared_turn = square(back.theta_rad);
+  const float still =
+      square(noise.translation_base_m) + square(noise.translation_per_rad_m) * squared_turn;
+  const float along = still + square(noise.translation_per_m) * squared_distance;
+  float turn = square(noise.rotation_base_rad) +
+               square(noise.rotation_per_m_rad) * squared_distance +
+               square(noise.rotation_per_rad) * squared_turn;
+  if (config_.learn_heading) { turn += static_cast<float>(heading_.variance(motion)); }
+  const float across = still + turn * squared_distance / 3.0F;
+  Matrix3f covariance = Matrix3f::diagonal(still, still, turn);
+  if (squared_distance > 0.0F) {
+    const float xx = square(back.x_m) / squared_distance;
+    const float xy = back.x_m * back.y_m / squared_distance;
+    const float yy = square(back.y_m) / squared_distance;
+    covariance(0, 0) = along * xx + across * yy;
+    covariance(0, 1) = (along - across) * xy;
+    covariance(1, 1) = along * yy + across * xx;
+    covariance(1, 0) = covariance(0, 1);
+  }
+  // Half of the turn's error, times the way: the end moves to the left of the way by it.
+  covariance(0, 2) = 0.5F * turn * back.y_m;
+  covariance(1, 2) = -0.5F * turn * back.x_m;
+  covariance(2, 0) = covariance(0, 2);
+  covariance(2, 1) = covariance(1, 2);
+  return covariance;
+}
+
 void LocaliserCore::start_match() {
   const PredictionNoise& noise = config_.noise;
-  float translation_variance = square(noise.blind_translation_m);
-  float rotation_variance = square(noise.blind_rotation_rad);
-  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
-  if (with_odometry_) {
-    const Pose2f moved = to_f32(motion);
-    const float squared_distance = square(moved.x_m) + square(moved.y_m);
-    const float squared_turn = square(moved.theta_rad);
-    translation_variance = square(noise.translation_base_m) +
-                           square(noise.translation_per_m) * squared_distance +
-                           square(noise.translation_per_rad_m) * squared_turn;
-    rotation_variance = square(noise.rotation_base_rad) +
-                        square(noise.rotation_per_m_rad) * squared_distance +
-                        square(noise.rotation_per_rad) * squared_turn;
-    if (config_.learn_heading) {
-      rotation_variance += static_cast<float>(heading_.variance(motion));
-    }
-  }
-  translation_sigma_m_ = square_root(translation_variance);
-  rotation_sigma_rad_ = square_root(rotation_variance);
+  const float blind = square(noise.blind_translation_m);
+  const Matrix3f covariance =
+      with_odometry_ ? motion_covariance(between(accepted_odom_T_base_, sweep_.odom_T_base))
+                     : Matrix3f::diagonal(blind, blind, square(noise.blind_rotation_rad));
+  translation_sigma_m_ = square_root(std::max(covariance(0, 0), covariance(1, 1)));
+  rotation_sigma_rad_ = square_root(covariance(2, 2));
+  prediction_information_ = covariance_of(covariance, 0.0F);
 
   phase_ = LocaliserPhase::matching;
   searched_ = !config_.search.enabled;
@@ -158,9 +198,9 @@ void LocaliserCore::start_match() {
 }
 
 PosePrior LocaliserCore::prior_about(const Pose2f& pose) const {
-  const float along = config_.noise.weight / square(translation_sigma_m_);
-  return {pose,
-          Matrix3f::diagonal(along, along, config_.noise.weight / square(rotation_sigma_rad_))};
+  // From base axes to those of the window.
+  const Matrix3f turned = propagate(rotation_of(pose.theta_rad), prediction_information_);
+  return {pose, scaled(turned, config_.noise.weight)};
 }
 
 void LocaliserCore::refine(const Pose2f& start) {

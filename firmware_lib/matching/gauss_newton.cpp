@@ -75,7 +75,13 @@ bool GaussNewtonMatcher<Field>::step() {
   report_.condition = conditioning.condition;
   const bool degenerate = !(conditioning.condition <= config_.max_condition);
   const bool with_prior = is_prior(request_.prior);
-  if (with_prior) { add_prior(request_.prior, report_.pose, system); }
+  report_.open_directions = open_directions(conditioning, config_.max_condition);
+  if (with_prior) {
+    if (degenerate) {
+      system = observable_part(system, conditioning, length_m_, config_.max_condition);
+    }
+    add_prior(request_.prior, report_.pose, system);
+  }
   report_.covariance = covariance_of(system.h, kUnknownVariance);
 
   StepSolution solution =

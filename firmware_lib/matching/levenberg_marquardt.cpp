@@ -80,7 +80,13 @@ bool LevenbergMarquardtMatcher<Field>::linearise() {
   conditioning_ = conditioning_of(system_.h, length_m_);
   report_.condition = conditioning_.condition;
   degenerate_ = !(conditioning_.condition <= config.max_condition);
-  if (is_prior(request_.prior)) { add_prior(request_.prior, report_.pose, system_); }
+  report_.open_directions = open_directions(conditioning_, config.max_condition);
+  if (is_prior(request_.prior)) {
+    if (degenerate_) {
+      system_ = observable_part(system_, conditioning_, length_m_, config.max_condition);
+    }
+    add_prior(request_.prior, report_.pose, system_);
+  }
   report_.covariance = covariance_of(system_.h, kUnknownVariance);
   cost_ = cost_at(report_.pose);
   if (!(damping_ > 0.0F)) {

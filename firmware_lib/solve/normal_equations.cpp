@@ -68,14 +68,48 @@ StepSolution solve(const NormalEquations3& system) {
   return {{step(0), step(1), step(2)}, true};
 }
 
+namespace {
+
+bool is_open(const Conditioning& conditioning, std::size_t i, float max_condition) {
+  const float eigenvalue = conditioning.eigenvalues[i];
+  return !(eigenvalue > 0.0F) || eigenvalue * max_condition < conditioning.eigenvalues[2];
+}
+
+}  // namespace
+
+int open_directions(const Conditioning& conditioning, float max_condition) {
+  int open = 0;
+  for (std::size_t i = 0; i < 3; ++i) { open += is_open(conditioning, i, max_condition) ? 1 : 0; }
+  return open;
+}
+
+NormalEquations3 observable_part(const NormalEquations3& system, const Conditioning& conditioning,
+                                 float length_m, float max_condition) {
+  const std::array<float, 3> unit{1.0F, 1.0F, length_m};
+  const Matrix3f& v = conditioning.eigenvectors;
+  NormalEquations3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (is_open(conditioning, i, max_condition)) { continue; }
+    const float along =
+        (v(0, i) * system.b[0] + v(1, i) * system.b[1]) + v(2, i) * (system.b[2] / length_m);
+    for (std::size_t row = 0; row < 3; ++row) {
+      result.b[row] += unit[row] * v(row, i) * along;
+      for (std::size_t column = 0; column < 3; ++column) {
+        result.h(row, column) +=
+            (unit[row] * v(row, i)) * (unit[column] * v(column, i)) * conditioning.eigenvalues[i];
+      }
+    }
+  }
+  return result;
+}
+
 StepSolution solve_constrained(const NormalEquations3& system, const Conditioning& conditioning,
                                float length_m, float max_condition) {
-  const float least = conditioning.eigenvalues[2] / max_condition;
   const std::array<float, 3> scaled_b{system.b[0], system.b[1], system.b[2] / length_m};
   StepSolution result;
   for (std::size_t i = 0; i < 3; ++i) {
+    if (is_open(conditioning, i, max_condition)) { continue; }
     const float eigenvalue = conditioning.eigenvalues[i];
-    if (!(eigenvalue > 0.0F) || eigenvalue < least) { continue; }
     const Matrix3f& v = conditioning.eigenvectors;
     const float along =
         ((v(0, i) * scaled_b[0] + v(1, i) * scaled_b[1]) + v(2, i) * scaled_b[2]) / eigenvalue;

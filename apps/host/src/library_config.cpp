@@ -88,6 +88,13 @@ void read_heading(ConfigFile& file, const std::string& section, HeadingCorrectio
   file.read(section, "gate_sigma", heading.gate_sigma);
 }
 
+void read_surface(ConfigFile& file, const std::string& section, SurfaceConfig& surface) {
+  file.read(section, "reach_m", surface.reach_m);
+  file.read(section, "max_neighbours", surface.max_neighbours);
+  file.read(section, "max_offset_m", surface.max_offset_m);
+  file.read(section, "min_cosine", surface.min_cosine);
+}
+
 }  // namespace
 
 void read(ConfigFile& file, const std::string& section, LocaliserConfig& config) {
@@ -97,6 +104,8 @@ void read(ConfigFile& file, const std::string& section, LocaliserConfig& config)
   read_noise(file, section + ".noise", config.noise);
   read_search(file, section + ".search", config.search);
   read_heading(file, section + ".heading", config.heading);
+  read_surface(file, section + ".surface", config.surface);
+  file.read(section, "use_surfaces", config.use_surfaces);
   file.read(section, "learn_heading", config.learn_heading);
   file.read(section, "use_coarse", config.use_coarse);
   file.read(section, "min_inlier_share", config.min_inlier_share);

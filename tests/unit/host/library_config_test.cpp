@@ -45,6 +45,7 @@ TEST(LibraryConfig, EveryPartIsReadFromItsOwnSection) {
   const LocaliserConfig config = read(R"([localiser]
 use_coarse = false
 learn_heading = false
+use_surfaces = false
 min_inlier_share = 0.25
 insert_every_m = 0.5
 insert_every_rad = 0.5
@@ -108,9 +109,19 @@ per_m_sigma_rad = 0.07
 scale_walk = 0.002
 per_m_walk_rad = 0.003
 gate_sigma = 4
+[localiser.surface]
+reach_m = 0.3
+max_neighbours = 7
+max_offset_m = 0.06
+min_cosine = 0.9
 )");
   EXPECT_FALSE(config.use_coarse);
   EXPECT_FALSE(config.learn_heading);
+  EXPECT_FALSE(config.use_surfaces);
+  EXPECT_EQ(config.surface.reach_m, 0.3F);
+  EXPECT_EQ(config.surface.max_neighbours, 7);
+  EXPECT_EQ(config.surface.max_offset_m, 0.06F);
+  EXPECT_EQ(config.surface.min_cosine, 0.9F);
   EXPECT_EQ(config.min_inlier_share, 0.25F);
   EXPECT_EQ(config.ray_stop_cells, 3);
   EXPECT_EQ(config.max_repair_tiles, 4);

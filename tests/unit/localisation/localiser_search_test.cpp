@@ -44,7 +44,7 @@ void expect_at(const LocaliserCore& core, const Pose2d& truth) {
 
 TEST(LocaliserSearch, ALongHopWithABadPredictionIsFoundAndGaussNewtonAloneLosesIt) {
   const Pose2d truth{0.9, -0.6, 0.7};
-  const Pose2d odometry{1.3, -0.95, 1.28};  // 0.5 m and 33 degrees off
+  const Pose2d odometry{1.4, -1.05, 1.38};  // 0.67 m and 39 degrees off
   const test::Scan scan = test::scan_at(test::furnished_room(), truth);
 
   const auto with_search = settled();

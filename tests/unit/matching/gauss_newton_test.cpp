@@ -8,13 +8,18 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
+#include <cstdint>
 #include <memory>
+#include <utility>
+#include <vector>
 
 #include "picolo/core/random.hpp"
 #include "picolo/geometry/angle.hpp"
 #include "picolo/map/rolling_map.hpp"
 #include "picolo/matching/field_sums.hpp"
+#include "picolo/matching/surface.hpp"
 #include "support/walls.hpp"
 
 namespace picolo {
@@ -103,19 +108,29 @@ TEST(FieldSums, LaneByLaneGivesTheSameBits) {
   // The contract of the order of summation: lane l sums the points l, l + 8, ... alone.
   const auto map = mapped(test::furnished_room());
   const test::Scan scan = test::scan_at(test::furnished_room(), {0.3, 0.2, 0.5}, 359);
+  std::vector<std::int8_t> along_x(scan.x_m.size());
+  std::vector<std::int8_t> along_y(scan.x_m.size());
+  surface_directions(scan.view(), {}, along_x, along_y);
   const FieldWalk walk = walk_at(to_window(map->core().window(), {0.32, 0.21, 0.49}), 11.0F);
-  const FieldSums whole = walk_field(map->core().field(), walk, scan.view());
+  const FieldSums plain = walk_field(map->core().field(), walk, scan.view());
+  const FieldSums whole =
+      walk_field(map->core().field(), walk, {scan.x_m, scan.y_m, along_x, along_y});
   LaneSums lanes;
   for (std::size_t l = 0; l < kLanes; ++l) {
     LaneSums alone;
     for (std::size_t k = l; k < scan.x_m.size(); k += kLanes) {
       Lanes x_m;
       Lanes y_m;
+      std::array<std::int8_t, kLanes> along_x_of{};
+      std::array<std::int8_t, kLanes> along_y_of{};
       x_m.fill(1e9F);
       y_m.fill(1e9F);
       x_m[l] = scan.x_m[k];
       y_m[l] = scan.y_m[k];
-      add_lanes(map->core().field(), walk, x_m.data(), y_m.data(), alone);
+      along_x_of[l] = along_x[k];
+      along_y_of[l] = along_y[k];
+      add_lanes<true>(map->core().field(), walk,
+                      {x_m.data(), y_m.data(), along_x_of.data(), along_y_of.data()}, alone);
     }
     lanes.xx[l] = alone.xx[l];
     lanes.tt[l] = alone.tt[l];
@@ -126,6 +141,33 @@ TEST(FieldSums, LaneByLaneGivesTheSameBits) {
   EXPECT_EQ(whole.tt, fold(lanes.tt));
   EXPECT_EQ(whole.bt, fold(lanes.bt));
   EXPECT_EQ(whole.residual, fold(lanes.residual));
+  EXPECT_EQ(whole.residual, plain.residual) << "surfaces change slopes, not residuals";
+  EXPECT_LT(whole.xx + whole.yy, plain.xx + plain.yy);
+}
+
+TEST(FieldSums, APointOnASurfaceIsConstrainedAcrossItOnly) {
+  const auto map = mapped(test::furnished_room());
+  const DistanceFieldView field = map->core().field();
+  const Pose2f pose = to_window(map->core().window(), {0.32, 0.21, 0.49});
+  Random random{8};
+  for (int i = 0; i < 300; ++i) {
+    const std::array x_m{static_cast<float>(random.uniform(-3.0, 3.0))};
+    const std::array y_m{static_cast<float>(random.uniform(-3.0, 3.0))};
+    const double direction = random.uniform(-3.0, 3.0);
+    const std::array along_x{static_cast<std::int8_t>(std::lround(127 * std::cos(direction)))};
+    const std::array along_y{static_cast<std::int8_t>(std::lround(127 * std::sin(direction)))};
+    const FieldSums free = walk_field(field, walk_at(pose, 0.0F), {x_m, y_m});
+    const FieldSums bound = walk_field(field, walk_at(pose, 0.0F), {x_m, y_m, along_x, along_y});
+    // Moving along the surface, in the axes of the window, must not change the residual; moving
+    // across it as without surfaces.
+    const auto [bx, by] = std::pair{static_cast<double>(bound.bx), static_cast<double>(bound.by)};
+    const auto [fx, fy] = std::pair{static_cast<double>(free.bx), static_cast<double>(free.by)};
+    const double quantised = std::atan2(along_y[0], along_x[0]);
+    const double tx = std::cos(quantised + static_cast<double>(pose.theta_rad));
+    const double ty = std::sin(quantised + static_cast<double>(pose.theta_rad));
+    EXPECT_NEAR(bx * tx + by * ty, 0.0, 0.01 * std::abs(fx * tx + fy * ty) + 1e-5);
+    EXPECT_NEAR(-bx * ty + by * tx, -fx * ty + fy * tx, 1e-5);
+  }
 }
 
 TEST(FieldSums, RightHandSideIsMinusTheGradientOfTheCost) {

@@ -71,6 +71,29 @@ TEST(Conditioning, ConstrainedSolutionHasNoPartAlongAWeakDirection) {
   EXPECT_NEAR(solution.step[2], 0.1F, 1e-4F);
 }
 
+TEST(Conditioning, ObservablePartIsSilentAboutAWeakDirectionAndKeepsTheRest) {
+  const float c = std::cos(0.4F);
+  const float s = std::sin(0.4F);
+  const float weak = 0.5F;  // of 100
+  const Matrix3f h{{100 * c * c + weak * s * s, (100 - weak) * c * s, 0, (100 - weak) * c * s,
+                    100 * s * s + weak * c * c, 0, 0, 0, 400}};
+  const NormalEquations3 system{h, {100 * c - 3 * s, 100 * s + 3 * c, 8}};
+  const Conditioning conditioning = conditioning_of(h, 2.0F);
+  EXPECT_EQ(open_directions(conditioning, 100.0F), 1);
+  EXPECT_EQ(open_directions(conditioning, 300.0F), 0);
+  const NormalEquations3 part = observable_part(system, conditioning, 2.0F, 100.0F);
+  EXPECT_NEAR(part.h(0, 0), 100 * c * c, 1e-3F);
+  EXPECT_NEAR(part.h(0, 1), 100 * c * s, 1e-3F);
+  EXPECT_NEAR(part.h(1, 1), 100 * s * s, 1e-3F);
+  EXPECT_NEAR(part.h(2, 2), 400.0F, 1e-2F);
+  EXPECT_NEAR(part.b[0], 100 * c, 1e-3F);
+  EXPECT_NEAR(part.b[1], 100 * s, 1e-3F);
+  EXPECT_NEAR(part.b[2], 8.0F, 1e-4F);
+  const NormalEquations3 whole = observable_part(system, conditioning, 2.0F, 300.0F);
+  for (std::size_t k = 0; k < 9; ++k) { EXPECT_NEAR(whole.h.elements[k], h.elements[k], 2e-3F); }
+  EXPECT_EQ(open_directions(conditioning_of(Matrix3f{}, 1.0F), 100.0F), 3);
+}
+
 TEST(Conditioning, ConstrainedEqualsFullSolutionWhenEverythingIsObserved) {
   Random random{4};
   for (int i = 0; i < 50; ++i) {

@@ -4,8 +4,10 @@
 /// The heart: prediction, match, acceptance, map update.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "picolo/core/status.hpp"
 #include "picolo/geometry/pose2.hpp"
@@ -13,14 +15,16 @@
 #include "picolo/map/rolling_map.hpp"
 #include "picolo/matching/correlative.hpp"
 #include "picolo/matching/gauss_newton.hpp"
+#include "picolo/matching/surface.hpp"
 #include "picolo/odometry/heading_correction.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
 
-/// How far the prediction may be off: sigma_t^2 = base^2 + (per_m d)^2 + (per_rad dtheta)^2 over
-/// the motion since the last match, the same for the rotation. Without odometry the two `blind`
-/// values hold about the last pose.
+/// How far the prediction may be off: along the way sigma^2 = base^2 + (per_m d)^2 + (per_rad
+/// dtheta)^2 over the motion since the last match, the same for the rotation; across it the
+/// rotation's error carries the end sideways. Without odometry the two `blind` values hold about
+/// the last pose.
 struct PredictionNoise {
   float translation_base_m = 0.03F;
   float translation_per_m = 0.10F;
@@ -28,9 +32,11 @@ struct PredictionNoise {
   float rotation_base_rad = 0.02F;
   float rotation_per_m_rad = 0.08F;
   float rotation_per_rad = 0.15F;
-  float blind_translation_m = 0.12F;
+  float blind_translation_m = 0.3F;  ///< tight ones hold a vehicle back that moves on steadily
   float blind_rotation_rad = 0.12F;
-  float weight = 0.3F;  ///< of the odometry term against the scan
+  /// Of the odometry term against the scan. Directions that the scan leaves open are the odometry's
+  /// whatever the weight.
+  float weight = 0.2F;
 };
 
 /// When the start may be too far off for Gauss-Newton: correlative search first, the best
@@ -65,7 +71,9 @@ struct LocaliserConfig {
   bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
   PredictionNoise noise{};
   SearchConfig search{};
+  SurfaceConfig surface{};
   HeadingCorrectionConfig heading{};
+  bool use_surfaces = true;   ///< points constrain across their surface only
   bool learn_heading = true;  ///< correct the odometry's heading by what matches taught
   /// A match with fewer points near known obstacles may not move the pose nor the map.
   float min_inlier_share = 0.30F;
@@ -79,7 +87,7 @@ struct LocaliserConfig {
     return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
            min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
            ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && search.valid() &&
-           max_insert_range_m > 0.0F && max_repair_tiles > 0;
+           surface.valid() && max_insert_range_m > 0.0F && max_repair_tiles > 0;
   }
 };
 
@@ -95,6 +103,12 @@ struct LocaliserCounters {
   std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
 };
 
+/// Working memory, one element a point.
+struct SurfaceStorage {
+  std::span<std::int8_t> along_x;
+  std::span<std::int8_t> along_y;
+};
+
 /// Where the localiser stands with the current sweep.
 enum class LocaliserPhase : std::uint8_t { idle, matching, mapping };
 
@@ -104,7 +118,8 @@ enum class LocaliserPhase : std::uint8_t { idle, matching, mapping };
 /// points of the sweep must stay valid until the last slice.
 class LocaliserCore {
  public:
-  LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine, RollingMapCore& coarse);
+  LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine, RollingMapCore& coarse,
+                const SurfaceStorage& surfaces);
 
   /// Where the vehicle stands at the first sweep; afterwards a jump of the pose (the map is kept).
   void set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base);
@@ -163,6 +178,7 @@ class LocaliserCore {
   [[nodiscard]] bool begin_search();
   [[nodiscard]] bool begin_wide_search();
   [[nodiscard]] bool next_candidate();
+  [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
   void start_map_update();
@@ -171,12 +187,14 @@ class LocaliserCore {
   LocaliserConfig config_;
   RollingMapCore& fine_;
   RollingMapCore& coarse_;
+  SurfaceStorage surfaces_;
   GaussNewtonMatcher<DistanceFieldView> coarse_matcher_;
   GaussNewtonMatcher<DistanceFieldView> fine_matcher_;
   UndistortedSweep sweep_{};
   CorrelativeSearch search_;
   MatchRequest request_{};
   MatchReport report_{};
+  Matrix3f prediction_information_{};  // base axes, without its weight
   float translation_sigma_m_ = 0.0F;
   float rotation_sigma_rad_ = 0.0F;
   std::size_t candidate_ = 0;
@@ -221,7 +239,7 @@ class Localiser {
   explicit Localiser(const LocaliserConfig& config = {})
       : fine_(fine_map_config<P>(config.map)),
         coarse_(coarse_map_config(fine_map_config<P>(config.map))),
-        core_(config, fine_.core(), coarse_.core()) {}
+        core_(config, fine_.core(), coarse_.core(), {along_x_, along_y_}) {}
   Localiser(const Localiser&) = delete;
   Localiser& operator=(const Localiser&) = delete;
   ~Localiser() = default;
@@ -232,6 +250,8 @@ class Localiser {
  private:
   RollingMap<P::kWidth, P::kHeight> fine_;
   RollingMap<P::kWidth / kCoarseFactor, P::kHeight / kCoarseFactor> coarse_;
+  std::array<std::int8_t, P::kReturns> along_x_{};
+  std::array<std::int8_t, P::kReturns> along_y_{};
   LocaliserCore core_;
 };
 

@@ -44,6 +44,9 @@ struct MatchReport {
   Matrix3f scan_information{};  ///< of the scan alone, window axes (1/m^2, 1/(m rad), 1/rad^2)
   Matrix3f covariance{};        ///< inverse of scan and prior information together
   float condition = 0.0F;       ///< of the scan information, theta scaled to metres
+  /// Directions that the scan leaves open: eigenvalues of the scaled information below their limit.
+  /// The prior alone decides along them; without one the start does.
+  int open_directions = 0;
   float cost = 0.0F;  ///< robust squared residuals over sigma plus the prior's part; comparable
                       ///< between starts of one request
   float mean_residual_m = 0.0F;  ///< mean of (1 - M) * reach over points inside of the window

@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include "picolo/map/bilinear_lanes.hpp"
 #include "picolo/undistort/undistorter.hpp"
@@ -44,9 +45,19 @@ struct LaneSums {
       inside{}, inliers{}, squared_radius{};
 };
 
-template <typename Field>
-inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_m, const float* y_m,
+/// Eight points; without surfaces `along_x` and `along_y` are not read.
+struct EightPoints {
+  const float* x_m;
+  const float* y_m;
+  const std::int8_t* along_x;
+  const std::int8_t* along_y;
+};
+
+template <bool WithSurfaces, typename Field>
+inline void add_lanes(const Field& field, const FieldWalk& walk, const EightPoints& points,
                       LaneSums& sums) {
+  const float* const x_m = points.x_m;
+  const float* const y_m = points.y_m;
   Lanes arm_x, arm_y, at_x_m, at_y_m;
   for (std::size_t l = 0; l < kLanes; ++l) {
     arm_x[l] = walk.cosine * x_m[l] - walk.sine * y_m[l];
@@ -63,6 +74,20 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_
   for (std::size_t l = 0; l < kLanes; ++l) {
     arm_x[l] = inside[l] > 0.0F ? arm_x[l] : 0.0F;  // a NaN outside must not reach the sums
     arm_y[l] = inside[l] > 0.0F ? arm_y[l] : 0.0F;
+  }
+  if constexpr (WithSurfaces) {
+    // Along its own surface a point moves freely: what the field's slope says there is the pattern
+    // of single hits, not the wall.
+    constexpr float kPerSquare = 1.0F / (127.0F * 127.0F);
+    for (std::size_t l = 0; l < kLanes; ++l) {
+      const auto x = static_cast<float>(points.along_x[l]);
+      const auto y = static_cast<float>(points.along_y[l]);
+      const float along_x = walk.cosine * x - walk.sine * y;
+      const float along_y = walk.sine * x + walk.cosine * y;
+      const float along = kPerSquare * (slope_x[l] * along_x + slope_y[l] * along_y);
+      slope_x[l] -= along * along_x;
+      slope_y[l] -= along * along_y;
+    }
   }
   for (std::size_t l = 0; l < kLanes; ++l) {
     // dS/dtheta = (-sin x - cos y, cos x - sin y) = (-arm_y, arm_x)
@@ -89,23 +114,33 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const float* x_
   }
 }
 
-template <typename Field>
-inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const PointsView& points) {
+template <bool WithSurfaces, typename Field>
+inline FieldSums walk_lanes(const Field& field, const FieldWalk& walk, const PointsView& points) {
   LaneSums sums;
   const std::size_t whole = points.size() - points.size() % kLanes;
   for (std::size_t k = 0; k < whole; k += kLanes) {
-    add_lanes(field, walk, points.x_m.data() + k, points.y_m.data() + k, sums);
+    add_lanes<WithSurfaces>(field, walk,
+                            {points.x_m.data() + k, points.y_m.data() + k,
+                             WithSurfaces ? points.along_x.data() + k : nullptr,
+                             WithSurfaces ? points.along_y.data() + k : nullptr},
+                            sums);
   }
   if (whole < points.size()) {
     Lanes x_m,
         y_m;  // what is missing from the last eight lies outside of every window and adds nothing
+    std::array<std::int8_t, kLanes> along_x{}, along_y{};
     x_m.fill(1e9F);
     y_m.fill(1e9F);
     for (std::size_t k = whole; k < points.size(); ++k) {
       x_m[k - whole] = points.x_m[k];
       y_m[k - whole] = points.y_m[k];
+      if constexpr (WithSurfaces) {
+        along_x[k - whole] = points.along_x[k];
+        along_y[k - whole] = points.along_y[k];
+      }
     }
-    add_lanes(field, walk, x_m.data(), y_m.data(), sums);
+    add_lanes<WithSurfaces>(field, walk, {x_m.data(), y_m.data(), along_x.data(), along_y.data()},
+                            sums);
   }
   return {fold(sums.xx),       fold(sums.xy),
           fold(sums.xt),       fold(sums.yy),
@@ -114,6 +149,13 @@ inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const Poi
           fold(sums.bt),       fold(sums.robust_squares),
           fold(sums.residual), fold(sums.inside),
           fold(sums.inliers),  fold(sums.squared_radius)};
+}
+
+template <typename Field>
+inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const PointsView& points) {
+  return points.along_x.size() == points.size() && points.along_y.size() == points.size()
+             ? walk_lanes<true>(field, walk, points)
+             : walk_lanes<false>(field, walk, points);
 }
 
 }  // namespace picolo::inline v0

@@ -44,6 +44,16 @@ struct StepSolution {
                                              const Conditioning& conditioning, float length_m,
                                              float max_condition);
 
+/// How many of the three directions have an eigenvalue below `largest / max_condition`; 3 when none
+/// is positive.
+[[nodiscard]] int open_directions(const Conditioning& conditioning, float max_condition);
+
+/// The same equations without what they say along the open directions: added to a prior, those are
+/// the prior's alone (Zhang et al., solution remapping).
+[[nodiscard]] NormalEquations3 observable_part(const NormalEquations3& system,
+                                               const Conditioning& conditioning, float length_m,
+                                               float max_condition);
+
 /// Inverse of a symmetric positive definite matrix; identity times `otherwise` when it is not.
 [[nodiscard]] Matrix3f covariance_of(const Matrix3f& information, float otherwise);
 

@@ -39,6 +39,10 @@ struct UndistortConfig {
 struct PointsView {
   std::span<const float> x_m;
   std::span<const float> y_m;
+  /// Direction of the surface at each point, of length 127; (0, 0) where there is none to tell;
+  /// both empty when nobody asked.
+  std::span<const std::int8_t> along_x{};
+  std::span<const std::int8_t> along_y{};
   [[nodiscard]] std::size_t size() const { return x_m.size(); }
 };
 

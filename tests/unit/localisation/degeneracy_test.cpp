@@ -1,0 +1,135 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// Where the scan leaves a direction open, the odometry carries it: corridor, single wall, circle,
+// open space.
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "picolo/core/random.hpp"
+#include "picolo/geometry/angle.hpp"
+#include "picolo/localisation/localiser.hpp"
+#include "support/walls.hpp"
+
+namespace picolo {
+namespace {
+
+constexpr double kReach_m = 12.0;
+constexpr int kBeams = 450;
+
+std::vector<test::Wall> round_room(double radius_m) {
+  std::vector<test::Wall> walls;
+  constexpr int kSides = 180;
+  for (int i = 0; i < kSides; ++i) {
+    const double from = 2.0 * std::numbers::pi * i / kSides;
+    const double to = 2.0 * std::numbers::pi * (i + 1) / kSides;
+    walls.push_back({radius_m * std::cos(from), radius_m * std::sin(from), radius_m * std::cos(to),
+                     radius_m * std::sin(to)});
+  }
+  return walls;
+}
+
+/// A drive by equal steps with odometry that errs by a share of each step, and range noise of 1 cm.
+struct Outcome {
+  double along_m = 0.0;  // errors at the end, in the axes of the truth's start
+  double across_m = 0.0;
+  double heading_rad = 0.0;
+  double odometry_m = 0.0;
+  double odometry_heading_rad = 0.0;
+  int degenerate = 0;  // sweeps
+  int rejected = 0;
+  MatchReport report{};
+};
+
+Outcome drive(const std::vector<test::Wall>& walls, const Pose2d& step, const Pose2d& odometry_step,
+              int steps) {
+  auto localiser = std::make_unique<Localiser<RoomProfile>>();
+  LocaliserCore& core = localiser->core();
+  Random random{5};
+  Pose2d truth{};
+  Pose2d odometry{};
+  Outcome outcome;
+  for (int i = 0; i < steps; ++i) {
+    test::Scan scan;
+    for (int k = 0; k < kBeams; ++k) {
+      const double bearing = 2.0 * std::numbers::pi * (k + random.uniform_f64()) / kBeams;
+      const double exact = test::cast(walls, truth.x_m, truth.y_m, truth.theta_rad + bearing);
+      if (exact <= 0.0 || exact > kReach_m) { continue; }
+      const double range = exact + 0.01 * random.gaussian();
+      scan.x_m.push_back(static_cast<float>(range * std::cos(bearing)));
+      scan.y_m.push_back(static_cast<float>(range * std::sin(bearing)));
+    }
+    UndistortedSweep sweep;
+    sweep.odom_T_base = odometry;
+    sweep.points = scan.view();
+    EXPECT_EQ(core.process(sweep, true), Status::ok);
+    if (i > 0 && !core.accepted()) { ++outcome.rejected; }
+    if (i > 0 && core.report().outcome == MatchOutcome::degenerate) { ++outcome.degenerate; }
+    if (i + 1 == steps) { break; }
+    truth = truth * step;
+    odometry = odometry * odometry_step;
+  }
+  const Pose2d& pose = core.map_T_base();
+  outcome.along_m = std::abs(pose.x_m - truth.x_m);
+  outcome.across_m = std::abs(pose.y_m - truth.y_m);
+  outcome.heading_rad = std::abs(wrap_angle(pose.theta_rad - truth.theta_rad));
+  outcome.odometry_m = std::hypot(odometry.x_m - truth.x_m, odometry.y_m - truth.y_m);
+  outcome.odometry_heading_rad = std::abs(wrap_angle(odometry.theta_rad - truth.theta_rad));
+  outcome.report = core.report();
+  return outcome;
+}
+
+TEST(Degeneracy, AlongAnEndlessCorridorTheOdometryIsKept) {
+  // 20 m with odometry 1 % too short and turning by 0.1 deg a metre.
+  const Outcome outcome =
+      drive(test::endless_corridor(), {0.06, 0.0, 0.0}, {0.0594, 0.0, 1e-4}, 334);
+  EXPECT_GT(outcome.odometry_m, 0.2);
+  EXPECT_LE(outcome.along_m, 0.01 * 20.0 + 0.01) << "not worse than plain odometry";
+  EXPECT_LE(outcome.across_m, 0.05);
+  EXPECT_LE(outcome.heading_rad, 0.005);
+  EXPECT_EQ(outcome.degenerate, 333);
+  EXPECT_EQ(outcome.report.open_directions, 1);
+  EXPECT_EQ(outcome.rejected, 0);
+}
+
+TEST(Degeneracy, AlongASingleWallTheOdometryIsKept) {
+  const Outcome outcome =
+      drive({{-500.0, 1.5, 500.0, 1.5}}, {0.06, 0.0, 0.0}, {0.0594, 0.0, 1e-4}, 167);
+  EXPECT_LE(outcome.along_m, 0.01 * 10.0 + 0.01);
+  EXPECT_LE(outcome.across_m, 0.03);
+  EXPECT_LE(outcome.heading_rad, 0.005);
+  EXPECT_EQ(outcome.degenerate, 166);
+  EXPECT_EQ(outcome.report.open_directions, 1);
+}
+
+TEST(Degeneracy, InTheMiddleOfACircleTheOdometryTurns) {
+  // A full turn, odometry 1 % too far.
+  const Outcome outcome = drive(round_room(3.0), {0.0, 0.0, 0.05}, {0.0, 0.0, 0.0505}, 126);
+  EXPECT_LE(outcome.along_m, 0.02);
+  EXPECT_LE(outcome.across_m, 0.02);
+  EXPECT_LE(outcome.heading_rad, outcome.odometry_heading_rad + 0.01);
+  EXPECT_GE(outcome.degenerate, 60) << "noise makes the circle a little rough";
+}
+
+TEST(Degeneracy, InOpenSpaceOdometryIsAllThereIs) {
+  const Outcome outcome = drive({}, {0.06, 0.0, 0.0}, {0.0594, 0.0, 0.0}, 50);
+  EXPECT_NEAR(outcome.along_m, outcome.odometry_m, 1e-9);
+  EXPECT_EQ(outcome.rejected, 49);
+  EXPECT_EQ(outcome.report.outcome, MatchOutcome::too_few_points);
+}
+
+TEST(Degeneracy, ARoomIsNone) {
+  const Outcome outcome =
+      drive(test::furnished_room(), {0.01, 0.0, 0.02}, {0.0099, 0.0, 0.0204}, 200);
+  EXPECT_EQ(outcome.degenerate, 0);
+  EXPECT_LE(std::hypot(outcome.along_m, outcome.across_m), 0.03);
+  EXPECT_LE(outcome.heading_rad, 0.01);
+}
+
+}  // namespace
+}  // namespace picolo

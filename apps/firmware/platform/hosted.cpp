@@ -12,6 +12,7 @@ namespace {
 constinit int g_count = 0;
 constinit char** g_words = nullptr;
 constinit std::FILE* g_file = nullptr;
+constinit std::FILE* g_output = nullptr;
 
 }  // namespace
 
@@ -37,6 +38,20 @@ int open_file(const char* path) {
 
 std::size_t read_file(int /*file*/, std::span<std::uint8_t> bytes) {
   return std::fread(bytes.data(), 1, bytes.size(), g_file);
+}
+
+int open_output(const char* path) {
+  g_output = std::fopen(path, "wb");
+  return g_output == nullptr ? -1 : 0;
+}
+
+bool write_file(int /*file*/, std::span<const std::uint8_t> bytes) {
+  return std::fwrite(bytes.data(), 1, bytes.size(), g_output) == bytes.size() &&
+         std::fflush(g_output) == 0;
+}
+
+std::uint32_t ticks() {
+  return 0;
 }
 
 void leave(int status) {

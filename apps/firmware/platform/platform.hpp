@@ -18,10 +18,17 @@ void argument(std::size_t index, std::span<char> word);
 void write(const char* text);
 void write_hex(std::uint64_t value);
 void write_decimal(std::uint64_t value);
-/// A file of the host for reading; negative when it cannot be opened. One at a time.
+/// A file of the host, or a pipe, for reading; negative when it cannot be opened. One of each kind
+/// at a time.
 int open_file(const char* path);
+int open_output(const char* path);
 /// How many bytes were read; fewer than asked for at the end.
 std::size_t read_file(int file, std::span<std::uint8_t> bytes);
+/// True when all were written; they are not held back.
+bool write_file(int file, std::span<const std::uint8_t> bytes);
+/// A free-running counter: 25 MHz on Cortex-M boards, 62.5 MHz on the zcu102, standing still on
+/// hosts.
+std::uint32_t ticks();
 /// Ends the program or the machine.
 [[noreturn]] void leave(int status);
 

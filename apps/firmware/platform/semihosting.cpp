@@ -15,6 +15,7 @@ using Word = std::uintptr_t;
 
 constexpr Word kOpen = 0x01;
 constexpr Word kWrite0 = 0x04;
+constexpr Word kWrite = 0x05;
 constexpr Word kRead = 0x06;
 constexpr Word kGetCommandLine = 0x15;
 constexpr Word kExitExtended = 0x20;
@@ -65,11 +66,46 @@ int open_file(const char* path) {
   return static_cast<int>(call(kOpen, block));
 }
 
+int open_output(const char* path) {
+  constexpr Word kWriteBinary = 5;
+  const Word block[3] = {reinterpret_cast<Word>(path), kWriteBinary, std::strlen(path)};
+  return static_cast<int>(call(kOpen, block));
+}
+
 std::size_t read_file(int file, std::span<std::uint8_t> bytes) {
+  std::size_t size = 0;
+  while (size < bytes.size()) {  // a pipe gives what it has
+    const std::size_t wanted = bytes.size() - size;
+    const Word block[3] = {static_cast<Word>(file), reinterpret_cast<Word>(bytes.data() + size),
+                           wanted};
+    const Word left = call(kRead, block);
+    if (left >= wanted) { break; }
+    size += wanted - left;
+  }
+  return size;
+}
+
+bool write_file(int file, std::span<const std::uint8_t> bytes) {
   const Word block[3] = {static_cast<Word>(file), reinterpret_cast<Word>(bytes.data()),
                          bytes.size()};
-  const Word left = call(kRead, block);
-  return left <= bytes.size() ? bytes.size() - left : 0;
+  return call(kWrite, block) == 0;
+}
+
+std::uint32_t ticks() {
+#if defined(__aarch64__)
+  std::uint64_t count = 0;
+  __asm__ volatile("isb\n mrs %0, cntvct_el0" : "=r"(count));
+  return static_cast<std::uint32_t>(count);
+#else
+  // CMSDK timer 0 counts down; it is started by its first reading.
+  volatile std::uint32_t* const timer = reinterpret_cast<std::uint32_t*>(PICOLO_TIMER_BASE);
+  if (timer[0] == 0) {
+    timer[2] = 0xFFFFFFFFU;
+    timer[1] = 0xFFFFFFFFU;
+    timer[0] = 1;
+  }
+  return 0xFFFFFFFFU - timer[1];
+#endif
 }
 
 void leave(int status) {

@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// The whole controller, one packet a minor frame: IN OUT, two files (pipes). Each reply is what
+// LockstepController::reply says, then how long each task took and how deep the stack was.
+
+#include <cstring>
+#include <new>
+
+#include "picolo/simulated/lockstep_controller.hpp"
+#include "platform.hpp"
+
+namespace picolo {
+namespace {
+
+using Robot = LockstepController<RoomProfile>;
+
+class Ticks final : public CycleCounter {
+ public:
+  [[nodiscard]] std::uint32_t cycles() override { return platform::ticks(); }
+  [[nodiscard]] std::uint32_t cycles_per_us() const override { return 25; }
+};
+
+alignas(64) constinit std::byte g_robot[sizeof(Robot)];
+alignas(8) constinit std::uint8_t g_packet[lockstep::kMaxPacket];
+constinit std::uint8_t g_reply[Robot::kMaxReply];
+
+#ifdef PICOLO_TIMER_BASE
+// Below the stack of run(), to find how deep a frame uses it. A host's stack is its own business.
+constexpr std::size_t kPainted = 4096;
+constexpr std::uint32_t kPaint = 0xA5C31E78U;
+
+volatile std::uint32_t* painted_from(void* frame_address) {
+  __asm__ volatile("" : "+r"(frame_address));  // what lies below a frame is nobody's object
+  return static_cast<volatile std::uint32_t*>(frame_address) - kPainted;
+}
+
+[[gnu::noinline]] void paint_stack(void* frame_address) {
+  volatile std::uint32_t* const words = painted_from(frame_address);
+  for (std::size_t i = 0; i + 64 < kPainted; ++i) { words[i] = kPaint; }
+}
+
+/// Bytes below `frame_address` that were used since.
+[[gnu::noinline]] std::uint32_t painted_over(void* frame_address) {
+  volatile std::uint32_t* const words = painted_from(frame_address);
+  std::size_t clean = 0;
+  while (clean + 64 < kPainted && words[clean] == kPaint) { ++clean; }
+  return static_cast<std::uint32_t>((kPainted - clean) * sizeof(std::uint32_t));
+}
+#endif
+
+bool read_packet(int file, std::size_t& size) {
+  if (platform::read_file(file, {g_packet, 2}) != 2) { return false; }
+  size = load_u16_le({g_packet, 2}, 0);
+  if (size < 2 || size > sizeof g_packet) { return false; }
+  return platform::read_file(file, {g_packet + 2, size - 2}) == size - 2;
+}
+
+[[gnu::noinline]] Status frame(Robot& robot, TaskTicks& ticks) {
+  return robot.run_frame(ticks);
+}
+
+int run() {
+  char in[160];
+  char out[160];
+  platform::argument(0, in);
+  platform::argument(1, out);
+  const int packets = platform::open_file(in);
+  const int replies = platform::open_output(out);
+  if (packets < 0 || replies < 0) { return 1; }
+  Ticks counter;
+  Robot& robot = *new (g_robot) Robot(counter);
+  std::size_t size = 0;
+  while (read_packet(packets, size)) {
+    TaskTicks ticks;
+    Status status = robot.take({g_packet, size});
+#ifdef PICOLO_TIMER_BASE
+    paint_stack(__builtin_frame_address(0));
+#endif
+    if (is_ok(status)) { status = frame(robot, ticks); }
+#ifdef PICOLO_TIMER_BASE
+    const std::uint32_t deep = painted_over(__builtin_frame_address(0));
+#else
+    const std::uint32_t deep = 0;
+#endif
+    std::size_t at = 2 + robot.reply(status, std::span{g_reply}.subspan(2));
+    for (const std::uint32_t spent : ticks.ticks) {
+      store_u32_le(g_reply, at, spent);
+      at += 4;
+    }
+    store_u32_le(g_reply, at, deep);
+    at += 4;
+    store_u16_le(g_reply, 0, static_cast<std::uint16_t>(at));
+    if (!platform::write_file(replies, {g_reply, at})) { return 1; }
+  }
+  return 0;
+}
+
+}  // namespace
+}  // namespace picolo
+
+int main() {
+  picolo::platform::leave(picolo::run());
+}

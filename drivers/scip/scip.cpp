@@ -129,7 +129,7 @@ void ScipProtocol::end_line(const ByteTime& time) {
     return;
   }
   if (scan_.line(start, text) || two_lines(start, text)) { return; }
-  if (parse_scip_echo(text) && text.size() < kScipLineLength) {
+  if (parse_scip_echo(text)) {
     // The empty line was lost. The next scan begins when this one has been taken.
     end_scan(start);
     scan_waits_ = true;

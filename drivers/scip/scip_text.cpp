@@ -42,7 +42,9 @@ Result<std::uint32_t> scip_decimal(ByteView text) {
   return value;
 }
 
-Result<ScipCommand> parse_scip_echo(ByteView line) {
+namespace {
+
+Result<ScipCommand> parse_echo_at_begin(ByteView line) {
   if (line.size() < kEchoSize) { return Status::corrupt; }
   ScipCommand command;
   command.continuous = line[0] == 'M';
@@ -63,6 +65,19 @@ Result<ScipCommand> parse_scip_echo(ByteView line) {
   command.last_step = static_cast<std::uint16_t>(*last);
   command.cluster = static_cast<std::uint8_t>(*cluster == 0 ? 1 : *cluster);
   return command;
+}
+
+}  // namespace
+
+Result<ScipCommand> parse_scip_echo(ByteView line) {
+  const Result<ScipCommand> command = parse_echo_at_begin(line);
+  if (command) { return command; }
+  for (const std::size_t size : {kContinuousEcho, kEchoSize}) {
+    if (line.size() <= size) { continue; }
+    const Result<ScipCommand> at_end = parse_echo_at_begin(line.last(size));
+    if (at_end) { return at_end; }
+  }
+  return Status::corrupt;
 }
 
 bool read_scip_parameter(ByteView line, ScipModel& model) {

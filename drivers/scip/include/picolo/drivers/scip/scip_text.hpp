@@ -41,7 +41,8 @@ struct ScipCommand {
   friend constexpr bool operator==(const ScipCommand&, const ScipCommand&) = default;
 };
 
-/// `corrupt`: not the echo of a measuring command, or steps that cannot be.
+/// The line feed in front of the echo may be lost: what stands before it is skipped. `corrupt`: not
+/// the echo of a measuring command, or steps that cannot be.
 [[nodiscard]] Result<ScipCommand> parse_scip_echo(ByteView line);
 
 /// Angles and limits of a model, from its answer to PP.

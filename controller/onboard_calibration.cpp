@@ -58,10 +58,9 @@ void OnboardCalibrationCore::step(Timestamp now) {
   if (!routine_.running()) { return; }
   now_ = now;
   for (std::size_t k = 0; k < config_.slices; ++k) {
-    static_cast<void>(scans_.step());
+    if (!scans_.step()) { static_cast<void>(routine_.step(now)); }
     ScanDisplacement seen;
     if (scans_.take(seen)) { routine_.add_scan(seen.begin, seen.end, seen.motion); }
-    static_cast<void>(routine_.step(now));
   }
 }
 

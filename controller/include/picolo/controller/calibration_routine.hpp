@@ -55,7 +55,7 @@ struct CalibrationRoutineConfig {
   std::uint32_t verify_samples = 40;   ///< in which the vehicle moves
   double min_verified_share = 0.8;     ///< of them within the gates of `joint`
   double max_offset_change_s = 0.003;  ///< beyond it collecting starts again, at most four times
-  std::size_t lags_per_step = 4;
+  std::size_t lags_per_step = 6;
   std::size_t granules_per_step = 2;
   [[nodiscard]] constexpr bool valid() const {
     return counts_per_revolution > 0.0 && (gyro_sign == 1.0 || gyro_sign == -1.0) &&

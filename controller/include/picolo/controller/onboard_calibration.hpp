@@ -24,7 +24,7 @@ struct OnboardCalibrationConfig {
   /// Neighbours of a spinning lidar stand further apart than those of a dense scan.
   PlIcpConfig matcher{.line_radius_m = 0.12F};
   Pose2d base_T_lidar{};  ///< as the controller has it; sweeps come in base
-  /// Slices of the routine and of the scan match in each minor frame.
+  /// In each minor frame, each either of the scan match or of the routine.
   std::size_t slices = 1;
 };
 

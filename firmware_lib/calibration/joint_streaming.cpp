@@ -121,7 +121,7 @@ void JointStreaming::reset() {
   stage_ = Stage::gather;
   round_ = 0;
   next_ = 0;
-  refresh_due_ = false;
+  refreshes_due_ = 0;
   consumed_ = 0;
   first_median_ = 0.0;
   limit_ = 0.0;
@@ -130,9 +130,9 @@ void JointStreaming::reset() {
 }
 
 bool JointStreaming::step() {
-  if (refresh_due_) {
-    refresh();
-    refresh_due_ = false;
+  if (refreshes_due_ > 0) {
+    refreshes_due_ == 2 ? refresh_gate() : refresh_solution();
+    --refreshes_due_;
     return true;
   }
   switch (stage_) {
@@ -207,7 +207,8 @@ void JointStreaming::consume_next() {
   --held_;
   ++consumed_;
   consume(sample);
-  refresh_due_ = consumed_ == kWarmUp || (consumed_ > kWarmUp && consumed_ % 4 == 0);
+  const bool due = consumed_ == kWarmUp || (consumed_ > kWarmUp && consumed_ % 4 == 0);
+  refreshes_due_ = due ? 2 : 0;
 }
 
 void JointStreaming::consume(const MotionSample& sample) {
@@ -322,14 +323,17 @@ void JointStreaming::follow_gain(const MotionCheck& seen) {
   seen.gain_with_prior(first_gain_, share * share, gain_, gain_covariance_);
 }
 
-void JointStreaming::refresh() {
+void JointStreaming::refresh_gate() {
   follow_gain(check_);
+  predictor_.refresh();
+}
+
+void JointStreaming::refresh_solution() {
   DriveParameters drive;
   // Until turn and speed have both been seen, gains and lever arm are guesses: gate on rotation
   // only, reference stays.
   const bool varied =
       check_.speed_share() > 1e-3 && check_.speed_share() < 0.999 && check_.arc_spread() > 1e-3;
-  predictor_.refresh();
   RotationGain gain;
   if (!varied || !is_ok(current(gain, drive))) { return; }
   const double a = gain_.j21 - reference_.j21;

@@ -85,7 +85,8 @@ class JointStreaming {
     return std::span<const MotionSample>{waiting_}.first(std::min(held_, kWarmUp));
   }
   void follow_gain(const MotionCheck& seen);
-  void refresh();
+  void refresh_gate();
+  void refresh_solution();
   [[nodiscard]] bool passes(const MotionSample& sample);
   [[nodiscard]] Pose2d noise() const;
   [[nodiscard]] Status current(RotationGain& gain, DriveParameters& drive) const;
@@ -115,8 +116,8 @@ class JointStreaming {
   std::uint64_t rejected_ = 0;
   Stage stage_ = Stage::gather;
   std::size_t round_ = 0;
-  std::size_t next_ = 0;  // of the present round
-  bool refresh_due_ = false;
+  std::size_t next_ = 0;   // of the present round
+  int refreshes_due_ = 0;  // two slices: what the gate predicts by, then the solution
   std::uint64_t consumed_ = 0;
   double first_median_ = 0.0;
   double limit_ = 0.0;

@@ -1,0 +1,120 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+// Every device in the simulated vehicle: chosen by name, through its own bytes, to a pose.
+
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <string>
+
+#include "picolo/devices/dialects.hpp"
+#include "picolo/devices/registry.hpp"
+#include "picolo/geometry/angle.hpp"
+#include "picolo/simulated/simulated_controller.hpp"
+
+namespace picolo::test {
+namespace {
+
+struct Choice {
+  std::string wheels;
+  std::string lidar;
+  std::string imu;
+  double worst_m;  ///< the encoders of some are coarse
+};
+
+using DeviceController = Controller<RoomProfile, devices::Wheels, devices::Lidar, devices::Imu>;
+
+/// A DBC file of our own with the two angles that the dialect sends.
+std::string dbc_file() {
+  const auto path = std::filesystem::temp_directory_path() /
+                    ("picolo_devices_" + std::to_string(::getpid()) + ".dbc");
+  std::ofstream{path} << "BO_ 517 MOTORS_ANGLE: 8 X\n SG_ LEFT : 7|16@0+ (1,0) [0|16384] \"\" X\n"
+                         " SG_ RIGHT : 23|16@0+ (1,0) [0|16384] \"\" X\n";
+  return path.string();
+}
+
+void drive(const Choice& choice) {
+  SCOPED_TRACE(choice.wheels + " " + choice.lidar + " " + choice.imu);
+  auto simulation = std::make_unique<sim::Simulation>(sim::SimulationConfig{.seed = 3});
+  constexpr std::uint32_t kPolePairs = 50;
+  const auto bus = devices::make_wheel_dialect(choice.wheels, simulation->can(),
+                                               simulation->clock(), {.pole_pairs = kPolePairs});
+  const auto lidar_port = devices::make_lidar_dialect(choice.lidar, simulation->lidar_port());
+  const auto imu_port = devices::make_imu_dialect(choice.imu, simulation->imu_port());
+  devices::WheelsSettings wheels_settings{.produce_sync = true, .pole_pairs = kPolePairs};
+  if (choice.wheels == "dbc") {
+    wheels_settings.dbc_file = dbc_file();
+    wheels_settings.left_signal = "MOTORS_ANGLE.LEFT";
+    wheels_settings.right_signal = "MOTORS_ANGLE.RIGHT";
+    wheels_settings.counts_per_turn = 16'384;
+  }
+  const auto wheels = devices::make_wheels(choice.wheels, *bus, wheels_settings);
+  const auto lidar = devices::make_lidar(
+      choice.lidar, *lidar_port,
+      {.mode = choice.lidar == "ydlidar" ? "tmini" : "", .samples_per_second = 4500});
+  const auto imu = devices::make_imu(choice.imu, *imu_port);
+  ControllerConfig config = simulated_vehicle_config();
+  if (choice.wheels == "vesc") { config.drive.counts_per_revolution = 6.0 * kPolePairs; }
+  EventRing events;
+  auto controller = std::make_unique<DeviceController>(
+      Board{*bus, simulation->clock(), simulation->cycle_counter(), simulation->watchdog()},
+      *wheels, *lidar, *imu, events, config);
+  ASSERT_EQ(controller->start(), Status::ok);
+  double worst_m = 0.0;
+  int tracking = 0;
+  int frames = 0;
+  while (simulation->now() < Timestamp{25s}) {
+    simulation->advance_to(controller->next_frame());
+    static_cast<void>(controller->run_frame());
+    if (simulation->now() < Timestamp{5s}) { continue; }
+    ++frames;
+    const PoseEstimate& estimate = controller->estimate();
+    tracking += estimate.state == HealthState::tracking ? 1 : 0;
+    const auto truth = simulation->truth(estimate.stamp);
+    ASSERT_TRUE(truth);
+    const Pose2d expected = between(simulation->config().scene.world_T_start, truth->world_T_base);
+    worst_m = std::max(worst_m, std::hypot(estimate.map_T_base.x_m - expected.x_m,
+                                           estimate.map_T_base.y_m - expected.y_m));
+  }
+  EXPECT_LT(worst_m, choice.worst_m);
+  EXPECT_GT(tracking, frames * 9 / 10);
+  std::cout << choice.wheels << " " << choice.lidar << " " << choice.imu << ": worst " << worst_m
+            << " m, tracking " << 100 * tracking / frames << " %\n";
+  for (const devices::Counter& counter : lidar->counters()) {
+    if (counter.name == "bad_checksums") { EXPECT_EQ(counter.value, 0U); }
+  }
+  EXPECT_TRUE(lidar->trouble().empty()) << lidar->trouble();
+  while (lidar->stop() == Status::not_ready) {}
+}
+
+TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
+  for (const Choice& choice :
+       {Choice{"canopen", "ld06", "witmotion", 0.15}, Choice{"odrive", "rplidar", "xsens", 0.15},
+        Choice{"vesc", "ydlidar", "bno08x-rvc", 0.25},
+        Choice{"dbc", "rplidar", "vectornav", 0.15}}) {
+    drive(choice);
+  }
+}
+
+TEST(SimulatedDevices, GivenUnknownNamesThenTheMessageNamesWhatThereIs) {
+  sim::SimClock clock{Timestamp{}};
+  sim::SimSerialPort port{clock, 115'200};
+  EXPECT_THROW(static_cast<void>(devices::make_lidar_dialect("scip", port)), std::invalid_argument);
+  try {
+    static_cast<void>(devices::make_lidar("sick", port));
+    FAIL();
+  } catch (const std::invalid_argument& error) {
+    EXPECT_NE(std::string{error.what()}.find("ld06, rplidar, scip, ydlidar"), std::string::npos);
+  }
+  EXPECT_NE(devices::find_device(devices::Kind::imu, "xsens"), nullptr);
+  EXPECT_EQ(devices::find_device(devices::Kind::imu, "ld06"), nullptr);
+}
+
+}  // namespace
+}  // namespace picolo::test

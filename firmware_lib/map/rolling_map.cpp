@@ -183,17 +183,20 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
   const auto inside = [this](int x, int y) {
     return x >= 0 && y >= 0 && x < window_.width && y < window_.height;
   };
-  const bool whole_ray_inside = inside(column, row) && inside(to_column, to_row);
   // Bresenham's line, all octants; it ends at the window's edge, since the lidar stands inside.
   const int dx = to_column > column ? to_column - column : column - to_column;
   const int dy = to_row > row ? to_row - row : row - to_row;
   const int step_x = to_column > column ? 1 : -1;
   const int step_y = to_row > row ? 1 : -1;
   const int steps = std::max(dx, dy) - stop_cells;
+  if (inside(column, row) && inside(to_column, to_row)) {
+    const int next_row = step_y * window_.width;
+    const Line line = dx >= dy ? Line{dx, dy, step_x, next_row} : Line{dy, dx, next_row, step_x};
+    clear_line(line, static_cast<int>(index_of(column, row)), steps);
+    return;
+  }
   int error = dx - dy;
-  for (int i = 0; i < steps; ++i) {
-    if (!whole_ray_inside && !inside(column, row)) { return; }
-    // Most of free space is as free as it gets: nothing to change, and no hit comes after the rays.
+  for (int i = 0; i < steps && inside(column, row); ++i) {
     if (storage_.occupancy[index_of(column, row)] > config_.low) {
       change(column, row, config_.miss);
     }
@@ -205,6 +208,29 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
     if (twice < dx) {
       error += dx;
       row += step_y;
+    }
+  }
+}
+
+[[gnu::noinline]] void RollingMapCore::clear_cell(int index) {
+  change(index % window_.width, index / window_.width, config_.miss);
+}
+
+// The same cells as the loop above, which steps along the longer axis every time.
+void RollingMapCore::clear_line(const Line& line, int index, int steps) {
+  const std::int8_t* const cells = storage_.occupancy.data();
+  const int low = config_.low;
+  const Line at = line;
+  int error = at.longer - at.shorter;
+  for (; steps > 0; --steps) {
+    // Most of free space is as free as it gets: nothing to change, and no hit comes after the rays.
+    if (cells[index] > low) { clear_cell(index); }
+    const bool diagonal = 2 * error < at.longer;
+    error -= at.shorter;
+    index += at.along;
+    if (diagonal) {
+      error += at.longer;
+      index += at.across;
     }
   }
 }

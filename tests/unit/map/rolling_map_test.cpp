@@ -5,8 +5,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <memory>
+#include <utility>
+#include <vector>
+
+#include "picolo/core/random.hpp"
 
 namespace picolo {
 namespace {
@@ -167,6 +173,53 @@ TEST(GridWindow, ThereAndBack) {
   const Pose2d back = to_map(window, to_window(window, pose));
   EXPECT_NEAR(back.x_m, pose.x_m, 1e-6);
   EXPECT_NEAR(back.y_m, pose.y_m, 1e-6);
+}
+
+/// Bresenham's line as the textbook has it.
+std::vector<std::pair<int, int>> textbook_line(int x, int y, int to_x, int to_y, int stop) {
+  const int dx = std::abs(to_x - x);
+  const int dy = std::abs(to_y - y);
+  int error = dx - dy;
+  std::vector<std::pair<int, int>> cells;
+  for (int i = 0; i < std::max(dx, dy) - stop; ++i) {
+    cells.emplace_back(x, y);
+    const int twice = 2 * error;
+    if (twice > -dy) {
+      error -= dy;
+      x += to_x > x ? 1 : -1;
+    }
+    if (twice < dx) {
+      error += dx;
+      y += to_y > y ? 1 : -1;
+    }
+  }
+  return cells;
+}
+
+TEST(RollingMap, RaysClearTheCellsOfTheTextbookLineInsideAndAcrossTheEdge) {
+  auto map = std::make_unique<Map>();
+  RollingMapCore& core = map->core();
+  Random random{5};
+  const auto below = [&random](int limit) {
+    return static_cast<int>(random.next_u32() % 1000) % limit;
+  };
+  for (int k = 0; k < 3000; ++k) {
+    core.place(0, 0);
+    const bool leaves = k % 4 == 0;
+    const int x = below(kSize);
+    const int y = below(kSize);
+    const int to_x = leaves ? below(3 * kSize) - kSize : below(kSize);
+    const int to_y = leaves ? below(3 * kSize) - kSize : below(kSize);
+    core.begin_scan();
+    core.add_ray(centre_of(x, y), centre_of(to_x, to_y), k % 3);
+    std::vector<std::int8_t> expected(kSize * kSize);
+    for (const auto& [column, row] : textbook_line(x, y, to_x, to_y, k % 3)) {
+      if (column < 0 || row < 0 || column >= kSize || row >= kSize) { break; }
+      expected[static_cast<std::size_t>(row * kSize + column)] = -10;
+    }
+    ASSERT_TRUE(std::ranges::equal(core.occupancy(), expected))
+        << x << " " << y << " to " << to_x << " " << to_y;
+  }
 }
 
 }  // namespace

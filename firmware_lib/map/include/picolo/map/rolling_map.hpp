@@ -93,6 +93,15 @@ class RollingMapCore {
   [[nodiscard]] std::size_t index_of(int column, int row) const;
   [[nodiscard]] bool mark_changed(std::size_t index);
   void change(int column, int row, int delta);
+  /// A line within the window: its extents, and what a step adds to the index of a cell.
+  struct Line {
+    int longer;
+    int shorter;
+    int along;
+    int across;
+  };
+  void clear_line(const Line& line, int index, int steps);
+  void clear_cell(int index);
   void paint(int column, int row);
   void mark_stale(int column, int row);
   void recompute_tile(int tile_column, int tile_row);

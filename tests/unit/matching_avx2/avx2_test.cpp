@@ -39,6 +39,8 @@ struct Case {
   std::unique_ptr<std::uint8_t[]> cells;  // exactly the window: reading beyond it would be seen
   std::vector<float> x_m;
   std::vector<float> y_m;
+  std::vector<std::int8_t> along_x;
+  std::vector<std::int8_t> along_y;
   kernels::Input input{};
 };
 
@@ -64,12 +66,21 @@ Case random_case(Random& random, int width, int height, std::size_t points) {
     made.y_m.push_back(strange ? odd[random.next_u32() % odd.size()]
                                : uniform(-0.7F * high_m, 0.7F * high_m));
   }
+  const bool surfaces = random.next_u32() % 2 == 0;
+  for (std::size_t k = 0; k < points; ++k) {
+    const float direction = uniform(-3.2F, 3.2F);
+    const float length = random.next_u32() % 4 == 0 ? 0.0F : 127.0F;
+    made.along_x.push_back(static_cast<std::int8_t>(length * std::cos(direction)));
+    made.along_y.push_back(static_cast<std::int8_t>(length * std::sin(direction)));
+  }
   const float yaw = uniform(-3.0F, 3.0F);
   made.input = {made.cells.get(),
                 width,
                 height,
                 made.x_m.data(),
                 made.y_m.data(),
+                surfaces ? made.along_x.data() : nullptr,
+                surfaces ? made.along_y.data() : nullptr,
                 points,
                 0.5F * wide_m,
                 0.5F * high_m,

@@ -16,6 +16,8 @@ struct Input {
   int height;
   const float* x_m;
   const float* y_m;
+  const std::int8_t* along_x;  ///< null: without surfaces
+  const std::int8_t* along_y;
   std::size_t points;
   float pose_x_m;
   float pose_y_m;

@@ -114,6 +114,13 @@ target_groups() {
   ctest_rows host-release " every-platform" --label-regex '^target$'
 }
 
+# Executions, seconds and executions a second of every target, as they are printed by tests/fuzz/run_target.
+fuzz_groups() {
+  build_row host-fuzz picolo_fuzz || return 0
+  ctest_rows host-fuzz " fuzz" --label-regex "$1"
+  grep -ohE 'fuzz [a-z0-9-]+ +[0-9]+ executions.*second' "$root/build/host-fuzz/junit-fuzz.xml" | sort -u >&2 || true
+}
+
 long_groups() {
   ctest_rows host-release " slow" --label-regex '^slow$' --label-exclude '^fuzz$'
   local builds=(host-release)
@@ -126,6 +133,7 @@ long_groups() {
     ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
   if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
+  fuzz_groups '^fuzz$'
   target_groups
   say "run: comparing trajectories of ${builds[*]}"
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"
@@ -137,8 +145,8 @@ campaign_groups() {
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
       --label-regex '^(unit|property|drivers|ports|integration)$' --label-exclude '^(slow|fuzz)$'
-    ctest_rows host-asan " host-asan fuzz" --label-regex '^fuzz$'
   fi
+  fuzz_groups '^fuzz_long$'
   lint_row
 }
 

@@ -60,11 +60,27 @@ bool read_packet(int file, std::size_t& size) {
   return robot.run_frame(ticks);
 }
 
+template <Profile P>
+void tell_size() {
+  using Type = LockstepController<P>::Type;
+  platform::write(P::kName);
+  platform::write(" ");
+  platform::write_decimal(sizeof(Type) + sizeof(CanopenWheels) + sizeof(Ld06) + sizeof(WitMotion) +
+                          sizeof(EventRing));
+  platform::write("\n");
+}
+
 int run() {
   char in[160];
   char out[160];
   platform::argument(0, in);
   platform::argument(1, out);
+  if (std::strcmp(in, "sizes") == 0) {
+    tell_size<RoomProfile>();
+    tell_size<HallProfile>();
+    tell_size<SiteProfile>();
+    return 0;
+  }
   const int packets = platform::open_file(in);
   const int replies = platform::open_output(out);
   if (packets < 0 || replies < 0) { return 1; }

@@ -72,7 +72,7 @@ void draw_calibration(const std::filesystem::path& folder, const std::string& ti
   write_picture(scatter, folder, "residuals");
   host::Picture path;
   path.title = title + ": path";
-  path.note = fmt::format("{} poses", corrected.size());
+  path.note = fmt::format("{} poses{}", corrected.size(), residuals.path_note);
   path.lines.push_back(host::trajectory_line(odometry, kOdometryGreen, 2.0, "odometry"));
   path.lines.push_back(host::trajectory_line(lidar, kLidarYellow, 3.0, residuals.reference));
   path.lines.push_back(host::trajectory_line(corrected, kCorrectedRed, 2.0, "corrected odometry"));

@@ -32,6 +32,7 @@ struct Residuals {
   std::string title = "residuals of the displacement between two scans";
   std::string note = "displacements; metres, predicted against measured";
   std::string reference = "lidar";  ///< whose path is yellow
+  std::string path_note;            ///< of the path's picture
 };
 
 /// residuals and path pictures: odometry green, lidar yellow, corrected red.

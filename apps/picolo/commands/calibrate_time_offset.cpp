@@ -111,6 +111,7 @@ void draw(const DriveFile& drive, const std::vector<Interval>& intervals,
   Residuals residuals;
   residuals.title = "rotation seen minus rotation of the wheels, over the rotation seen";
   residuals.reference = gyro ? "gyro" : "lidar";
+  if (gyro) { residuals.path_note = "; lengths are angles of the wheels: nothing here saw metres"; }
   residuals.note = "intervals; rad; green: clocks as they are, red: offset taken out";
   host::Trajectory odometry, second, corrected;
   Pose2d a, b, c;

@@ -188,10 +188,43 @@ bool CalibrationRoutine::take_scan() {
     ++scans_dropped_;
     return true;
   }
-  use({duration_s, (end.left_rad - begin.left_rad) / duration_s,
-       (end.right_rad - begin.right_rad) / duration_s, scan.motion});
+  MotionSample sample{duration_s, (end.left_rad - begin.left_rad) / duration_s,
+                      (end.right_rad - begin.right_rad) / duration_s, scan.motion};
+  take_out_bends(scan, sample);
+  use(sample);
   learn_gyro(scan);
   return true;
+}
+
+/// The estimator takes the wheels' rates for constant between two scans. While they change, the way
+/// bends otherwise than an arc by tenths of a millimetre, always to the same side where starts and
+/// stops differ; what is known of the vehicle so far is good enough to take that out.
+void CalibrationRoutine::take_out_bends(const Scan& scan, MotionSample& sample) const {
+  constexpr int kPieces = 4;
+  const DriveParameters& drive = report_.drive;
+  const double tenth_m = 0.1 * drive.track_m;
+  const double variance = report_.covariance[14];
+  const bool known = drive.radius_left_m > 0.0 && drive.radius_right_m > 0.0 && tenth_m > 0.0 &&
+                     variance > 0.0 && variance < tenth_m * tenth_m;
+  if (!known) { return; }
+  const double piece_s = sample.duration_s / kPieces;
+  Pose2d way;
+  WheelAngles last;
+  if (!is_ok(lidar_clock_.core().wheels_at(scan.begin_s - used_offset_s_, last))) { return; }
+  for (int k = 1; k <= kPieces; ++k) {
+    const double stamp_s = scan.begin_s + piece_s * k - used_offset_s_;
+    WheelAngles now;
+    if (!is_ok(lidar_clock_.core().wheels_at(stamp_s, now))) { return; }
+    way = way * base_motion(
+                    drive, {1.0, now.left_rad - last.left_rad, now.right_rad - last.right_rad, {}});
+    last = now;
+  }
+  const Pose2d arc = base_motion(drive, sample);
+  const SinCos<double> yaw = sin_cos(drive.base_T_lidar.theta_rad);
+  const double x = way.x_m - arc.x_m;
+  const double y = way.y_m - arc.y_m;
+  sample.lidar_motion.x_m -= yaw.cosine * x + yaw.sine * y;
+  sample.lidar_motion.y_m -= yaw.cosine * y - yaw.sine * x;
 }
 
 void CalibrationRoutine::use(const MotionSample& sample) {

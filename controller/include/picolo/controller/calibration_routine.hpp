@@ -157,6 +157,7 @@ class CalibrationRoutine {
   bool work();
   [[nodiscard]] bool waits_for_gyro(const Scan& scan) const;
   [[nodiscard]] bool take_scan();
+  void take_out_bends(const Scan& scan, MotionSample& sample) const;
   void use(const MotionSample& sample);
   void learn_gyro(const Scan& scan);
   void feel(double stamp_s, const ImuSample& sample);

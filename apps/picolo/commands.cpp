@@ -40,6 +40,9 @@ ExitCode run(int argc, char** argv) {
   Action action;
   add_demo(app, action);
   add_decode(app, action);
+  add_run(app, action);
+  add_doctor(app, action);
+  add_simulate(app, action);
   add_replay(app, action);
   add_match(app, action);
   add_calibrate(app, action);

@@ -39,5 +39,8 @@ void add_evaluate(CLI::App& app, Action& action);
 void add_odometry3d(CLI::App& app, Action& action);
 void add_calibrate(CLI::App& app, Action& action);
 void add_protocol(CLI::App& app, Action& action);
+void add_run(CLI::App& app, Action& action);
+void add_doctor(CLI::App& app, Action& action);
+void add_simulate(CLI::App& app, Action& action);
 
 }  // namespace picolo::tool

@@ -40,9 +40,16 @@ const char* to_string(HealthReason reason) {
 // The first cause that holds is the reason, worst first.
 HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (inputs.overruns != overruns_) {
+    if (inputs.now - overruns_since_ > config_.overrun_hold) {
+      overruns_since_ = inputs.now;
+      recent_overruns_ = 0;
+    }
+    recent_overruns_ += inputs.overruns - overruns_;
     overruns_ = inputs.overruns;
-    last_overrun_ = inputs.now;
-    overrun_seen_ = true;
+    if (recent_overruns_ > config_.tolerated_overruns) {
+      last_overrun_ = inputs.now;
+      overrun_seen_ = true;
+    }
   }
   const bool lidar_silent = inputs.lidar_age > config_.max_lidar_age;
   const bool wheels_silent = inputs.wheels_age > config_.max_wheels_age;

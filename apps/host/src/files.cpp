@@ -5,6 +5,8 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstring>
+#include <fstream>
+#include <iterator>
 #include <string>
 #include <system_error>
 
@@ -36,6 +38,15 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
     throw UserError{ExitCode::device, path.string(),
                     std::string{"writing failed: "} + std::strerror(errno), "free some space"};
   }
+}
+
+std::string read_file(const std::filesystem::path& path) {
+  std::ifstream file{path, std::ios::binary};
+  std::string content{std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
+  if (!file) {
+    throw UserError{ExitCode::input, path.string(), "cannot be read", "check the path"};
+  }
+  return content;
 }
 
 }  // namespace picolo::host

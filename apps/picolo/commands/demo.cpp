@@ -24,6 +24,7 @@ struct Options {
   CommonOptions common;
   std::optional<int> seconds;
   std::optional<int> seed;
+  std::string record;
 };
 
 DemoSettings settings_from(const Options& options) {
@@ -33,6 +34,7 @@ DemoSettings settings_from(const Options& options) {
   file.read("demo", "seconds", settings.seconds);
   file.read("demo", "seed", seed);
   file.reject_unknown({"localiser", "replay", "undistort"});
+  settings.record = options.record;
   settings.seconds = options.seconds.value_or(settings.seconds);
   settings.seed = static_cast<std::uint64_t>(options.seed.value_or(seed));
   if (settings.seconds < 1 || settings.seconds > kMaxSeconds || options.seed.value_or(seed) < 0) {
@@ -68,6 +70,11 @@ host::Json tasks_json(const DemoResult& result) {
   return tasks;
 }
 
+/// Not measured while recording.
+host::Json heap_calls_json(const DemoResult& result, const DemoSettings& settings) {
+  return settings.record.empty() ? host::Json(result.heap_calls) : host::Json(nullptr);
+}
+
 void report(const DemoResult& result, const DemoSettings& settings, const host::ApeSummary& ape,
             const host::ApeSummary& ape_odometry, const Options& options) {
   if (options.common.json) {
@@ -76,7 +83,7 @@ void report(const DemoResult& result, const DemoSettings& settings, const host::
                                       {"scans", result.counters.sweeps},
                                       {"matched", result.counters.matched},
                                       {"outcomes", outcomes_json(result.counters)},
-                                      {"heap_calls", result.heap_calls},
+                                      {"heap_calls", heap_calls_json(result, settings)},
                                       {"ape", to_json(ape)},
                                       {"ape_odometry", to_json(ape_odometry)},
                                       {"state", to_string(result.state)},
@@ -139,6 +146,8 @@ void add_demo(CLI::App& app, Action& action) {
                    "Noise, slip and biases; the same seed, the same drive [1]")
       ->check(CLI::NonNegativeNumber)
       ->type_name("N");
+  command->add_option("--record", options->record, "Write everything that arrives to this folder")
+      ->type_name("DIR");
   command->footer(
       "A vehicle with imperfect wheels drives through an office. Its wheel encoders speak "
       "CANopen,\n"

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "live/live_loop.hpp"
 #include "picolo/heap_trap/heap_trap.hpp"
 #include "picolo/host/map_image.hpp"
 #include "picolo/host/quantile.hpp"
@@ -52,10 +53,52 @@ void keep_pose(const Robot& robot, DemoResult& result) {
   result.tracking_share += estimate.state == HealthState::tracking ? 1.0 : 0.0;
 }
 
+/// The same drive with ports that write down what they deliver.
+DemoResult drive_and_record(const DemoSettings& settings,
+                            const std::function<void(std::size_t)>& progress) {
+  const sim::SimulationConfig config{.seed = settings.seed};
+  const auto simulation = std::make_unique<sim::Simulation>(config);
+  Recorder recorder{settings.record, "", simulation->can(), simulation->lidar_port(),
+                    simulation->imu_port()};
+  LatchedClock clock;
+  const auto vehicle = make_vehicle(
+      read_vehicle(""),
+      {.board = {recorder.can(), clock, simulation->cycle_counter(), simulation->watchdog()},
+       .lidar = recorder.lidar(),
+       .imu = recorder.imu()});
+  LiveLoop loop{*vehicle, clock, &recorder};
+  DemoResult result;
+  loop.start(simulation->now());
+  for (int frame = 0; frame < settings.seconds * kFramesPerSecond; ++frame) {
+    simulation->advance_to(vehicle->next_frame());
+    static_cast<void>(loop.cycle(simulation->now()));
+    const PoseEstimate& estimate = vehicle->estimate();
+    const Result<sim::Truth> truth = simulation->truth(estimate.stamp);
+    if (frame % kFramesPerPose == kFramesPerPose - 1 && estimate.matches > 0 && truth) {
+      result.truth.push_back({to_seconds_f64(estimate.stamp.time_since_epoch()),
+                              between(config.scene.world_T_start, truth->world_T_base)});
+      result.tracking_share += estimate.state == HealthState::tracking ? 1.0 : 0.0;
+    }
+    if (frame % kFramesPerSecond == 0) {
+      progress(static_cast<std::size_t>(frame / kFramesPerSecond));
+    }
+  }
+  loop.finish();
+  result.trajectory = loop.journal().trajectory();
+  result.odometry = loop.journal().odometry();
+  result.map = vehicle->map();
+  result.counters = vehicle->figures().localiser;
+  result.tracking_share /= std::max(1.0, static_cast<double>(result.trajectory.size()));
+  result.state = vehicle->estimate().state;
+  result.reason = vehicle->estimate().reason;
+  return result;
+}
+
 }  // namespace
 
 DemoResult drive_demo(const DemoSettings& settings,
                       const std::function<void(std::size_t)>& progress) {
+  if (!settings.record.empty()) { return drive_and_record(settings, progress); }
   const int frames = settings.seconds * kFramesPerSecond;
   ProcessorTimeCounter cycles;
   TaskTimes times{static_cast<std::size_t>(frames)};

@@ -21,6 +21,9 @@ namespace picolo::tool {
 struct DemoSettings {
   int seconds = 240;
   std::uint64_t seed = 1;
+  /// Not empty: everything that arrives is written there. Heap calls and times of tasks are not
+  /// measured then.
+  std::string record;
 };
 
 /// How long one task of the cycle took on this machine, over all its runs, most of which find

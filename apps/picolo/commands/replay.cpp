@@ -12,6 +12,7 @@
 #include "commands.hpp"
 #include "direct_replay.hpp"
 #include "drive_files.hpp"
+#include "live/folder_replay.hpp"
 #include "matcher_replay.hpp"
 #include "picolo/host/config_file.hpp"
 #include "picolo/host/library_config.hpp"
@@ -133,7 +134,58 @@ DriveResult run(const ReplayInput& input, const ReplaySettings& settings, const 
                       : replay_directly(input, settings);
 }
 
+void report_folder(const FolderReplay& replay, const Options& options) {
+  if (options.common.json) {
+    host::Json json;
+    json["cycles"] = replay.journal.cycles();
+    json["pose_hash"] = replay.journal.hash();
+    json["recorded_cycles"] = replay.has_cycles;
+    if (replay.has_result) { json["same"] = replay.same; }
+    json["differences"] = replay.differences;
+    json["matched"] = replay.drive.counters.matched;
+    json["changes"] = replay.journal.changes_json();
+    fmt::print("{}\n", host::to_text(json));
+    return;
+  }
+  fmt::print("{} cycles{}, {} matched, pose hash {}\n", replay.journal.cycles(),
+             replay.has_cycles ? "" : " by arrival times", replay.drive.counters.matched,
+             replay.journal.hash());
+  if (replay.has_result && replay.same) { fmt::print("the same as recorded, bit for bit\n"); }
+  fmt::print("picture: {}\n", (std::filesystem::path{options.common.out} / "picture.png").string());
+}
+
+/// A folder that run, demo or simulate has recorded, or one of captures.
+ExitCode replay_recording(const Options& options) {
+  host::Diagnostics diagnostics;
+  FolderReplay replay = replay_folder({options.log}, options.common.config, diagnostics);
+  if (replay.drive.trajectory.empty()) {
+    throw host::UserError{ExitCode::refused, options.log,
+                          fmt::format("no pose in {} cycles", replay.journal.cycles()),
+                          "does the configuration fit the vehicle (nodes, baud rates)?"};
+  }
+  host::TumFile reference;
+  if (!options.reference.empty()) {
+    host::LineReader reader{options.reference};
+    reference = read_tum(reader, diagnostics);
+  }
+  replay.drive.truth = reference.poses;
+  replay.drive.truth_name = "reference";
+  const std::string name = std::filesystem::path{options.log}.filename().string();
+  write_drive(replay.drive, evaluate(replay.drive), "Replay of " + name, false, options.common.out);
+  report_folder(replay, options);
+  if (replay.has_result && !replay.same) {
+    throw host::UserError{
+        ExitCode::refused, options.log,
+        fmt::format("gives other poses or frames than recorded ({} calls differ)",
+                    replay.differences),
+        "replay with the picolo and the configuration that recorded it; results by other "
+        "settings are in the output folder"};
+  }
+  return ExitCode::done;
+}
+
 ExitCode replay(const Options& options) {
+  if (std::filesystem::is_directory(options.log)) { return replay_recording(options); }
   ReplaySettings settings = settings_from(options);
   host::Diagnostics diagnostics;
   host::LineReader reader{options.log};
@@ -224,6 +276,9 @@ void add_replay(CLI::App& app, Action& action) {
       "      prints the error after alignment: \"ape\":{\"rmse\":...} in metres\n"
       "  picolo replay freiburg-101.clf.gz --wire\n"
       "      stop-and-scan in virtual time through drivers and cyclic executive\n"
+      "  picolo replay /tmp/drive\n"
+      "      a folder of run, demo or simulate --record: the same poses bit for bit; without\n"
+      "      cycles.log, or with a candump log and raw captures, by arrival times\n"
       "  picolo calibrate linear intel.clf.gz --out cal\n"
       "  picolo replay intel.clf.gz --calibration cal/calibration.json\n"
       "  picolo replay monday.clf --out mon && picolo replay tuesday.clf --map mon/map.yaml\n"

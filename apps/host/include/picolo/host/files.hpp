@@ -5,6 +5,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <string_view>
 
 namespace picolo::host {
@@ -15,5 +16,8 @@ void make_folder(const std::filesystem::path& path);
 /// Replaces the file's content. Throws UserError: usage when it cannot be opened, device when
 /// writing fails (a full disk).
 void write_file(const std::filesystem::path& path, std::string_view content);
+
+/// The file's content. Throws UserError (input).
+[[nodiscard]] std::string read_file(const std::filesystem::path& path);
 
 }  // namespace picolo::host

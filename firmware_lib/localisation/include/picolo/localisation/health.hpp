@@ -28,6 +28,8 @@ struct HealthConfig {
   Duration recover_after = 500ms;
   int relocalised_matches = 5;  ///< accepted in a row before lost becomes degraded
   Duration overrun_hold = 1s;   ///< how long an overrun of the cycle is held against the pose
+  /// So many within overrun_hold are not: for systems without a real-time scheduler.
+  std::uint32_t tolerated_overruns = 0;
 
   [[nodiscard]] constexpr bool valid() const {
     return max_lidar_age > Duration{0} && max_wheels_age > Duration{0} &&
@@ -97,6 +99,8 @@ class HealthMonitor {
   HealthReason reason_ = HealthReason::starting;
   Timestamp clear_since_{};   // valid while was_clear_
   Timestamp last_overrun_{};  // valid while overrun_seen_
+  Timestamp overruns_since_{};  // a window as long as overrun_hold, and ...
+  std::uint32_t recent_overruns_ = 0;  // ... how many came in it
   std::uint32_t overruns_ = 0;
   bool was_clear_ = false;
   bool overrun_seen_ = false;

@@ -1,0 +1,160 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+#include <linux/can.h>
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <poll.h>
+#include <sys/ioctl.h>
+#include <sys/socket.h>
+#include <sys/un.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+#include "doctor/link_details.hpp"
+#include "doctor/probe.hpp"
+#include "picolo/drivers/canopen/cob_id.hpp"
+#include "picolo/linux/file_descriptor.hpp"
+
+namespace picolo::tool {
+namespace {
+
+constexpr int kArphrdCan = 280;
+constexpr auto kListen = std::chrono::milliseconds{1200};
+
+FileDescriptor open_socket(const std::string& path, CanFacts& facts) {
+  FileDescriptor socket{::socket(AF_UNIX, SOCK_SEQPACKET | SOCK_CLOEXEC, 0)};
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::memcpy(address.sun_path, path.c_str(),
+              std::min(path.size() + 1, sizeof address.sun_path - 1));
+  const void* any = &address;
+  facts.is_virtual = true;
+  facts.exists = ::connect(socket.get(), static_cast<const sockaddr*>(any), sizeof address) == 0;
+  return socket;
+}
+
+FileDescriptor open_interface(const std::string& name, CanFacts& facts) {
+  FileDescriptor socket{::socket(PF_CAN, SOCK_RAW | SOCK_CLOEXEC, CAN_RAW)};
+  if (!socket.is_open()) {
+    facts.kernel_has_can = errno != EAFNOSUPPORT && errno != EPROTONOSUPPORT;
+    facts.may_open = !facts.kernel_has_can;
+    return socket;
+  }
+  const auto details = link_details(name);
+  facts.exists = details.has_value();
+  if (!facts.exists) { return socket; }
+  int type = 0;
+  std::ifstream{"/sys/class/net/" + name + "/type"} >> type;
+  facts.is_can = type == kArphrdCan || details->kind == "can" || details->kind == "vcan";
+  facts.is_up = details->is_up;
+  facts.is_virtual = details->kind == "vcan" || details->kind == "vxcan";
+  facts.bit_rate = details->bit_rate;
+  facts.restart_ms = details->restart_ms;
+  facts.state = details->state;
+  const can_err_mask_t errors = CAN_ERR_MASK;
+  static_cast<void>(
+      ::setsockopt(socket.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, &errors, sizeof errors));
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = static_cast<int>(::if_nametoindex(name.c_str()));
+  const void* any = &address;
+  if (facts.is_can &&
+      ::bind(socket.get(), static_cast<const sockaddr*>(any), sizeof address) != 0) {
+    facts.may_open = false;
+  }
+  return socket;
+}
+
+/// Each node is asked for its type: whoever lives answers, be it with "no such object".
+void ask_nodes(int fd, CanFacts& facts) {
+  for (const int node : facts.wanted_nodes) {
+    can_frame request{};
+    request.can_id = static_cast<canid_t>(0x600 + node);
+    request.can_dlc = 8;
+    request.data[0] = 0x40;
+    request.data[2] = 0x10;
+    facts.sent = facts.sent && ::send(fd, &request, sizeof request, MSG_DONTWAIT | MSG_NOSIGNAL) ==
+                                   static_cast<ssize_t>(sizeof request);
+  }
+}
+
+void note_error(const can_frame& frame, CanFacts& facts) {
+  if ((frame.can_id & CAN_ERR_ACK) != 0) { ++facts.not_acknowledged; }
+  if ((frame.can_id & (CAN_ERR_PROT | CAN_ERR_BUSERROR)) != 0) { ++facts.protocol_errors; }
+  if ((frame.can_id & CAN_ERR_BUSOFF) != 0) { facts.state = CanState::bus_off; }
+  if ((frame.can_id & CAN_ERR_CRTL) == 0) { return; }
+  const unsigned controller = frame.data[1];
+  if ((controller & (CAN_ERR_CRTL_RX_OVERFLOW | CAN_ERR_CRTL_TX_OVERFLOW)) != 0) {
+    ++facts.overflows;
+  }
+}
+
+void note_frame(const can_frame& frame, std::uint32_t own_id, CanFacts& facts) {
+  ++facts.frames;
+  if ((frame.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0) { return; }
+  const std::uint32_t id = frame.can_id & CAN_SFF_MASK;
+  if (id >= own_id && id < own_id + 16) { ++facts.foreign_talkers; }
+  const auto node = static_cast<int>(id & 0x7F);
+  if (node == 0) { return; }
+  const std::uint32_t kind = id & 0x780;
+  const bool is_sign_of_life = kind == 0x180 || kind == 0x580 || kind == 0x080;
+  if (kind == 0x700) {
+    facts.heard_nodes[node] = frame.can_dlc > 0 ? frame.data[0] & 0x7F : -1;
+  } else if (is_sign_of_life) {
+    facts.heard_nodes.try_emplace(node, -1);
+  }
+}
+
+void listen(int fd, std::uint32_t own_id, CanFacts& facts) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + kListen;
+  for (auto now = Clock::now(); now < end; now = Clock::now()) {
+    pollfd wait{.fd = fd, .events = POLLIN, .revents = 0};
+    const auto left = std::chrono::duration_cast<std::chrono::milliseconds>(end - now).count();
+    if (::poll(&wait, 1, static_cast<int>(left) + 1) <= 0) { continue; }
+    can_frame frame{};
+    const ssize_t size = ::recv(fd, &frame, sizeof frame, MSG_DONTWAIT);
+    if (size == 0 || (size < 0 && errno != EAGAIN && errno != EINTR)) {
+      facts.is_up = facts.is_up && size != 0 && errno != ENETDOWN;
+      return;
+    }
+    if (size != static_cast<ssize_t>(sizeof frame)) { continue; }
+    if ((frame.can_id & CAN_ERR_FLAG) != 0) {
+      note_error(frame, facts);
+    } else {
+      note_frame(frame, own_id, facts);
+    }
+  }
+}
+
+}  // namespace
+
+CanFacts probe_can(const std::string& name, const VehicleSettings& settings) {
+  CanFacts facts;
+  facts.name = name;
+  for (const std::uint32_t id : {settings.wheels.left_id, settings.wheels.right_id}) {
+    const auto node = static_cast<int>(id);
+    if (settings.wheels_name != "canopen") { break; }  // others cannot be asked alike
+    if (std::find(facts.wanted_nodes.begin(), facts.wanted_nodes.end(), node) ==
+        facts.wanted_nodes.end()) {
+      facts.wanted_nodes.push_back(node);
+    }
+  }
+  const bool is_socket = name.rfind("socket:", 0) == 0;
+  const FileDescriptor socket =
+      is_socket ? open_socket(name.substr(7), facts) : open_interface(name, facts);
+  if (!facts.kernel_has_can || !facts.exists || !facts.may_open || !facts.is_can || !facts.is_up) {
+    return facts;
+  }
+  ask_nodes(socket.get(), facts);
+  listen(socket.get(), settings.controller.frames_out.base_id, facts);
+  return facts;
+}
+
+}  // namespace picolo::tool

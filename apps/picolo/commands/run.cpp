@@ -277,7 +277,8 @@ void add_run(CLI::App& app, Action& action) {
       ->type_name("DIR");
   command->add_option("--out", options->out, "Write trajectory and map there at the end")
       ->type_name("DIR");
-  command->add_option("--store", options->store, "File for the maps that commands save and load")
+  command
+      ->add_option("--store", options->store, "File for maps and calibrations, which commands save")
       ->type_name("FILE");
   command->add_option("--watchdog", options->watchdog, "Device that resets a machine that hangs")
       ->type_name("DEVICE");

@@ -5,12 +5,16 @@
 #include <optional>
 #include <stdexcept>
 
+#include "picolo/controller/calibration_store.hpp"
+#include "picolo/controller/onboard_calibration.hpp"
 #include "picolo/controller/stored_maps.hpp"
 #include "picolo/host/error.hpp"
 #include "picolo/host/map_image.hpp"
 
 namespace picolo::tool {
 namespace {
+
+constexpr std::size_t kCalibrationPoints = 720;
 
 template <Profile P>
 class VehicleOf final : public LiveVehicle {
@@ -19,8 +23,10 @@ class VehicleOf final : public LiveVehicle {
       : wheels_(devices::make_wheels(settings.wheels_name, ports.board.can, settings.wheels)),
         lidar_(devices::make_lidar(settings.lidar_name, ports.lidar, settings.lidar)),
         imu_(devices::make_imu(settings.imu_name, ports.imu, settings.imu)),
-        controller_(ports.board, *wheels_, *lidar_, *imu_, events_, settings.controller,
-                    {.maps = keep_maps(ports.store)}) {}
+        config_(open_stores(settings.controller, ports.store)),
+        calibration_(onboard_calibration(config_), records_ ? &*records_ : nullptr),
+        controller_(ports.board, *wheels_, *lidar_, *imu_, events_, config_,
+                    {.maps = maps_ ? &*maps_ : nullptr, .calibration = &calibration_.core()}) {}
 
   Status start() override { return controller_.start(); }
   Status run_frame() override { return controller_.run_frame(); }
@@ -45,15 +51,24 @@ class VehicleOf final : public LiveVehicle {
   }
 
  private:
-  MapService* keep_maps(ByteStore* store) {
-    if (store == nullptr) { return nullptr; }
-    return &maps_.emplace(*store);
+  /// Calibrations in the first two sectors, maps behind them. What was calibrated replaces what the
+  /// configuration says.
+  ControllerConfig open_stores(ControllerConfig config, ByteStore* store) {
+    if (store == nullptr) { return config; }
+    CalibrationRecord record;
+    const Status found = records_.emplace(*store).load(record);
+    if (is_ok(found)) { apply(record, config); }
+    maps_.emplace(*store, MapStoreConfig{.address = 2 * store->geometry().sector});
+    return config;
   }
 
   std::optional<StoredMaps> maps_;
+  std::optional<CalibrationStore> records_;
   std::unique_ptr<devices::Wheels> wheels_;
   std::unique_ptr<devices::Lidar> lidar_;
   std::unique_ptr<devices::Imu> imu_;
+  ControllerConfig config_;
+  OnboardCalibration<kCalibrationPoints> calibration_;
   EventRing events_{};
   Controller<P, devices::Wheels, devices::Lidar, devices::Imu> controller_;
 };

@@ -69,7 +69,7 @@ struct LivePorts {
   Board board;
   SerialPort& lidar;
   SerialPort& imu;
-  ByteStore* store = nullptr;  ///< for the maps that commands save and load
+  ByteStore* store = nullptr;  ///< for the maps and calibrations of commands
 };
 
 /// Throws UserError (usage) for a profile or a driver that does not exist or cannot be set up so.

@@ -158,7 +158,8 @@ void report_folder(const FolderReplay& replay, const Options& options) {
 ExitCode replay_recording(const Options& options) {
   host::Diagnostics diagnostics;
   FolderReplay replay = replay_folder({options.log}, options.common.config, diagnostics);
-  if (replay.drive.trajectory.empty()) {
+  const bool any_pose = !replay.drive.trajectory.empty();
+  if (!any_pose && !replay.same) {
     throw host::UserError{ExitCode::refused, options.log,
                           fmt::format("no pose in {} cycles", replay.journal.cycles()),
                           "does the configuration fit the vehicle (nodes, baud rates)?"};
@@ -171,7 +172,10 @@ ExitCode replay_recording(const Options& options) {
   replay.drive.truth = reference.poses;
   replay.drive.truth_name = "reference";
   const std::string name = std::filesystem::path{options.log}.filename().string();
-  write_drive(replay.drive, evaluate(replay.drive), "Replay of " + name, false, options.common.out);
+  if (any_pose) {
+    write_drive(replay.drive, evaluate(replay.drive), "Replay of " + name, false,
+                options.common.out);
+  }
   report_folder(replay, options);
   if (replay.has_result && !replay.same) {
     throw host::UserError{

@@ -84,6 +84,8 @@ Status TermiosSerialPort::set_up(FileDescriptor device) {
   const Status status = make_raw(device.get(), config_.baud);
   if (!is_ok(status)) { return status; }
   ask_for_low_latency(device.get());
+  int dtr = TIOCM_DTR;
+  static_cast<void>(::ioctl(device.get(), config_.dtr ? TIOCMBIS : TIOCMBIC, &dtr));
   static_cast<void>(::ioctl(device.get(), TCFLSH, TCIFLUSH));
   device_ = std::move(device);
   overruns_at_open_ = overruns();

@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 // Any text into the readers of host programs.
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
+#include <cstdlib>
 #include <string>
 #include <string_view>
 
@@ -26,10 +25,12 @@ std::string_view text_of(Input input) {
 
 /// A file in memory with this content; the same path every time.
 std::string file_of(Input input, const char* extension) {
-  static const std::string stem = "/dev/shm/picolo_fuzz_" + std::to_string(::getpid());
+  static const char* const folder = std::getenv("PICOLO_FUZZ_FILES");
+  static const std::string stem =
+      (folder != nullptr ? std::string{folder} : std::string{"/dev/shm"}) + "/picolo_fuzz";
   const std::string path = stem + extension;
   std::FILE* file = std::fopen(path.c_str(), "wb");
-  if (file == nullptr) { fail("no /dev/shm"); }
+  if (file == nullptr) { fail("PICOLO_FUZZ_FILES names no folder that can be written"); }
   if (!input.empty()) { std::fwrite(input.data(), 1, input.size(), file); }
   std::fclose(file);
   return path;

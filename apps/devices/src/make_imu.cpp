@@ -5,6 +5,7 @@
 #include "counters.hpp"
 #include "picolo/devices/registry.hpp"
 #include "picolo/drivers/bno08x/bno08x_rvc.hpp"
+#include "picolo/drivers/common/axis_watch.hpp"
 #include "picolo/drivers/vectornav/vectornav.hpp"
 #include "picolo/drivers/witmotion/witmotion.hpp"
 #include "picolo/drivers/xsens/xsens.hpp"
@@ -12,11 +13,35 @@
 namespace picolo::inline v0::devices {
 namespace {
 
-class WitMotionImu final : public Imu {
+/// Looks at every sample on its way.
+class WatchedImu : public Imu {
+ public:
+  [[nodiscard]] std::string trouble() const override {
+    if (watch_.gyro_stuck()) {
+      return "the gyro repeats itself while the accelerometer moves: power the sensor off and on, "
+             "then check its settings";
+    }
+    if (watch_.accelerometer_stuck()) {
+      return "the accelerometer repeats itself: power the sensor off and on";
+    }
+    return {};
+  }
+
+ protected:
+  Result<std::size_t> watch(const Result<std::size_t>& count, std::span<const ImuSample> samples) {
+    for (std::size_t i = 0; i < count.value_or(0); ++i) { watch_.update(samples[i]); }
+    return count;
+  }
+
+ private:
+  AxisWatch watch_{};
+};
+
+class WitMotionImu final : public WatchedImu {
  public:
   WitMotionImu(SerialPort& port, const WitMotionConfig& config) : driver_(port, config) {}
   Result<std::size_t> poll(std::size_t max_bytes, std::span<ImuSample> samples) override {
-    return driver_.poll(max_bytes, samples);
+    return watch(driver_.poll(max_bytes, samples), samples);
   }
   Status service(Timestamp /*now*/) override { return Status::ok; }
   Status stop() override { return Status::ok; }
@@ -27,11 +52,11 @@ class WitMotionImu final : public Imu {
 };
 
 template <typename Driver>
-class SerialImu final : public Imu {
+class SerialImu final : public WatchedImu {
  public:
   SerialImu(SerialPort& port, const typename Driver::Config& config) : driver_(port, config) {}
   Result<std::size_t> poll(std::size_t max_bytes, std::span<ImuSample> samples) override {
-    return driver_.poll(max_bytes, samples);
+    return watch(driver_.poll(max_bytes, samples), samples);
   }
   Status service(Timestamp now) override { return driver_.service(now); }
   Status stop() override { return driver_.stop(); }

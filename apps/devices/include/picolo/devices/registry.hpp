@@ -31,6 +31,7 @@ struct DeviceInfo {
   std::string title;                 ///< what people call it
   std::vector<std::uint32_t> bauds;  ///< to be tried in this order; empty on CAN
   bool has_gyro = false;             ///< of an IMU
+  bool dtr = true;                   ///< level of the DTR line that its adapter needs
 };
 
 [[nodiscard]] const std::vector<DeviceInfo>& all_devices();
@@ -67,6 +68,8 @@ class Imu {
   virtual Status service(Timestamp now) = 0;
   virtual Status stop() = 0;
   [[nodiscard]] virtual Counters counters() const = 0;
+  /// What is wrong with its axes, with the cure; empty when all is well or unknown.
+  [[nodiscard]] virtual std::string trouble() const = 0;
 };
 
 /// Encoders behind their driver; satisfies WheelDevice.

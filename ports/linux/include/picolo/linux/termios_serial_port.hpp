@@ -18,8 +18,8 @@ namespace picolo::inline v0 {
 struct TermiosConfig {
   std::uint32_t baud = 115'200;   ///< any rate that the adapter can do
   Duration retry_period = 500ms;  ///< how often `read` looks for a device that has gone
-  /// Level of the DTR line while open, where the adapter has one: the motor of a YDLIDAR turns while
-  /// it is up, that of an RPLIDAR A1 while it is down.
+  /// Level of the DTR line while open, where the adapter has one: the motor of a YDLIDAR turns
+  /// while it is up, that of an RPLIDAR A1 while it is down.
   bool dtr = true;
   [[nodiscard]] constexpr bool valid() const { return baud > 0 && retry_period > Duration{0}; }
 };

@@ -76,7 +76,7 @@ class FedSamples {
   SpscRing<Sample, Capacity> queue_;
 };
 
-using FedLidar = FedSamples<RangeReading, 512>;
+using FedLidar = FedSamples<RangeReading, 256>;
 using FedImu = FedSamples<ImuSample, 16>;
 
 ControllerConfig config_of(const picolo_config& given) {

@@ -106,7 +106,7 @@ int64_t picolo_next_frame_us(const picolo_vehicle* vehicle);
 picolo_status picolo_run_frame(picolo_vehicle* vehicle, int64_t now_us);
 
 /** Samples in the order of their stamps, before the frame that should see them. PICOLO_FULL: more
- * than the queue holds (16 wheel, 512 beam, 16 IMU samples); the sample is lost and counted. */
+ * than the queue holds (16 wheel, 256 beam, 16 IMU samples); the sample is lost and counted. */
 picolo_status picolo_add_wheels(picolo_vehicle* vehicle, int64_t stamp_us, int64_t left_counts,
                                 int64_t right_counts);
 /** A beam of the lidar in its own frame; `range_m` 0 when nothing came back, bearing

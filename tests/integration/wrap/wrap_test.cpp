@@ -14,16 +14,16 @@ namespace {
 constexpr Duration kDrive = 10s;
 constexpr Duration kWrap{1LL << 32};
 
-struct Run {
+struct DriveEnd {
   std::uint64_t hash = 0;
   Duration third_sweep_end{};  // since the start
 };
 
-Run drive_with_wrap_after(Duration elapsed) {
+DriveEnd drive_with_wrap_after(Duration elapsed) {
   const Timestamp start{kWrap - elapsed};
   test::Drive drive{hashed_drive(sim::SceneName::room, start)};
   TrajectoryHash hash{start};
-  Run run;
+  DriveEnd run;
   std::uint32_t sweeps = 0;
   drive.until(kDrive, [&](const test::Publication& publication) {
     hash.add(publication.estimate);
@@ -39,7 +39,7 @@ Run drive_with_wrap_after(Duration elapsed) {
 }
 
 TEST(CounterWrap, At256MomentsOfADriveChangesNothing) {
-  const Run reference = drive_with_wrap_after(kWrap - kDrive);  // long before the end of the count
+  const DriveEnd reference = drive_with_wrap_after(kWrap - kDrive);  // long before the end of the count
   for (int i = 0; i < 256; ++i) {
     ASSERT_EQ(drive_with_wrap_after(kDrive * (2 * i + 1) / 512).hash, reference.hash)
         << "wrap at part " << i << " of 256";
@@ -47,7 +47,7 @@ TEST(CounterWrap, At256MomentsOfADriveChangesNothing) {
 }
 
 TEST(CounterWrap, AroundTheEndOfASweepChangesNothing) {
-  const Run reference = drive_with_wrap_after(kWrap - kDrive);
+  const DriveEnd reference = drive_with_wrap_after(kWrap - kDrive);
   ASSERT_GT(reference.third_sweep_end, Duration{0});
   for (const Duration offset :
        {Duration{-5000}, Duration{-1}, Duration{0}, Duration{1}, Duration{5000}}) {

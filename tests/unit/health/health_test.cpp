@@ -275,6 +275,25 @@ TEST(Health, GivenOneOverrunThenDegradedForTheHoldTimeAndNoLonger) {
   EXPECT_EQ(walk.monitor.state(), State::tracking);
 }
 
+TEST(Health, GivenToleratedOverrunsThenOnlyMoreWithinTheHoldTimeCount) {
+  HealthConfig config = kConfig;
+  config.tolerated_overruns = 3;
+  Walk walk{.monitor = HealthMonitor{config}};
+  walk.bring_to(State::tracking);
+  HealthInputs inputs = good();
+  for (int seconds = 0; seconds < 5; ++seconds) {
+    inputs.overruns += 3;
+    walk.once(inputs);
+    EXPECT_EQ(walk.monitor.state(), State::tracking) << "three now and then";
+    walk.hold(inputs, config.overrun_hold + 25ms);
+  }
+  inputs.overruns += 3;
+  walk.once(inputs);
+  inputs.overruns += 1;
+  walk.once(inputs);
+  EXPECT_EQ(walk.monitor.reason(), Reason::overrun) << "a fourth one at once";
+}
+
 TEST(Health, GivenLostThenTheWayBackLeadsThroughDegraded) {
   Walk walk;
   walk.bring_to(State::lost);

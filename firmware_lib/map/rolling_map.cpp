@@ -7,6 +7,7 @@
 
 #include "grid_shift.hpp"
 #include "picolo/core/convert.hpp"
+#include "picolo/core/convert_inline.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
@@ -22,6 +23,12 @@ int tiles_to_move(int cell_from_corner, int size) {
   const int from_centre = cell_from_corner - size / 2;
   if (from_centre <= size / 4 && from_centre >= -size / 4) { return 0; }
   return from_centre / kTileCells;
+}
+
+/// floor_to_i32, at once for what lies inside of the window.
+int cell_at(float in_cells) {
+  const bool usual = in_cells >= 0.0F && in_cells < static_cast<float>(kCellLimit);
+  return usual ? truncate_bounded(in_cells) : floor_to_i32(in_cells, -kCellLimit, kCellLimit);
 }
 
 }  // namespace
@@ -169,17 +176,17 @@ void RollingMapCore::mark_stale(int column, int row) {
 }
 
 void RollingMapCore::add_hit(Point2f window_p) {
-  const int column = floor_to_i32(window_p.x_m * cells_per_m_, -kCellLimit, kCellLimit);
-  const int row = floor_to_i32(window_p.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  const int column = cell_at(window_p.x_m * cells_per_m_);
+  const int row = cell_at(window_p.y_m * cells_per_m_);
   if (column < 0 || row < 0 || column >= window_.width || row >= window_.height) { return; }
   change(column, row, config_.hit);
 }
 
 void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_cells) {
-  int column = floor_to_i32(window_lidar.x_m * cells_per_m_, -kCellLimit, kCellLimit);
-  int row = floor_to_i32(window_lidar.y_m * cells_per_m_, -kCellLimit, kCellLimit);
-  const int to_column = floor_to_i32(window_p.x_m * cells_per_m_, -kCellLimit, kCellLimit);
-  const int to_row = floor_to_i32(window_p.y_m * cells_per_m_, -kCellLimit, kCellLimit);
+  int column = cell_at(window_lidar.x_m * cells_per_m_);
+  int row = cell_at(window_lidar.y_m * cells_per_m_);
+  const int to_column = cell_at(window_p.x_m * cells_per_m_);
+  const int to_row = cell_at(window_p.y_m * cells_per_m_);
   const auto inside = [this](int x, int y) {
     return x >= 0 && y >= 0 && x < window_.width && y < window_.height;
   };

@@ -39,7 +39,8 @@ DriveEnd drive_with_wrap_after(Duration elapsed) {
 }
 
 TEST(CounterWrap, At256MomentsOfADriveChangesNothing) {
-  const DriveEnd reference = drive_with_wrap_after(kWrap - kDrive);  // long before the end of the count
+  const DriveEnd reference =
+      drive_with_wrap_after(kWrap - kDrive);  // long before the end of the count
   for (int i = 0; i < 256; ++i) {
     ASSERT_EQ(drive_with_wrap_after(kDrive * (2 * i + 1) / 512).hash, reference.hash)
         << "wrap at part " << i << " of 256";

@@ -183,7 +183,9 @@ ExitCode run(const Options& options) {
   if (!can.open(filters_for(settings, can))) {
     fmt::print(stderr, "picolo: {}: is not there yet; waiting for it\n", options.can);
   }
-  TermiosSerialPort lidar{linux_clock, {.baud = settings.lidar_baud}};
+  const devices::DeviceInfo* kind = devices::find_device(devices::Kind::lidar, settings.lidar_name);
+  TermiosSerialPort lidar{linux_clock,
+                          {.baud = settings.lidar_baud, .dtr = kind == nullptr || kind->dtr}};
   TermiosSerialPort imu{linux_clock, {.baud = settings.imu_baud}};
   open_line(lidar, options.lidar, "lidar");
   open_line(imu, options.imu, "imu");

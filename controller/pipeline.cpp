@@ -145,6 +145,7 @@ bool Pipeline::conclude() {
   verdict_.odom_T_base = undistorter_.result().odom_T_base;
   verdict_.map_T_base = localiser_.map_T_base();
   verdict_.covariance = report.covariance;
+  verdict_.agreement = localiser_.agreement();
   verdict_.inlier_share = localiser_.counters().sweeps == 1 ? 1.0F : report.inlier_share;
   stage_ = localiser_.phase() == LocaliserPhase::mapping ? PipelineStage::mapping
                                                          : PipelineStage::waiting;

@@ -63,16 +63,23 @@ void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) 
   rejected_streak_ = 0;
   pulled_ = pulled;
   direction_unobservable_ = verdict.direction_unobservable;
-  const bool poor = verdict.inlier_share < trust_.good_inlier_share;
+  const bool poor = verdict.inlier_share < trust_.good_inlier_share ||
+                    (unproven_ && verdict.agreement < trust_.found_again_agreement);
   if (poor || jumped) {
     accepted_streak_ = 0;
   } else {
     count_up(accepted_streak_);
   }
+  if (accepted_streak_ >= trust_.found_again_matches) { unproven_ = false; }
   if (jumped) {
     doubt_ += poor ? 2 * kDoubtful : kDoubtful;
   } else if (!poor) {  // a poor match in new surroundings says nothing
     doubt_ -= 1;
+  }
+  // A lidar that told the same for seconds has drawn the pose along.
+  if (pulled && !unproven_) {
+    unproven_ = true;
+    accepted_streak_ = 0;
   }
   doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
 }
@@ -132,6 +139,10 @@ void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Sched
        .overruns = cycle_troubles_,
        .cycle_fault = schedule.faulted(),
        .configuration_refused = configuration_refused_});
+  if (transition.state_changed && transition.to == HealthState::lost) {
+    unproven_ = true;
+    accepted_streak_ = 0;
+  }
   if (!transition.state_changed && !transition.reason_changed) { return; }
   events_.push(
       {.stamp_us = now.time_since_epoch().count(),

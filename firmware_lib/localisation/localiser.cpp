@@ -134,40 +134,6 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
   return Status::ok;
 }
 
-/// In the base frame at the end of the motion. An error of the heading, spread over the way,
-/// carries the end of the way sideways: the two are correlated, and a wheeled vehicle hardly moves
-/// sideways otherwise.
-Matrix3f LocaliserCore::motion_covariance(const Pose2d& motion) const {
-  const PredictionNoise& noise = config_.noise;
-  const Pose2f back = to_f32(inverse(motion));  // the way in the axes of its end
-  const float squared_distance = square(back.x_m) + square(back.y_m);
-  const float squared_turn = square(back.theta_rad);
-  const float still =
-      square(noise.translation_base_m) + square(noise.translation_per_rad_m) * squared_turn;
-  const float along = still + square(noise.translation_per_m) * squared_distance;
-  float turn = square(noise.rotation_base_rad) +
-               square(noise.rotation_per_m_rad) * squared_distance +
-               square(noise.rotation_per_rad) * squared_turn;
-  if (config_.learn_heading) { turn += static_cast<float>(heading_.variance(motion)); }
-  const float across = still + turn * squared_distance / 3.0F;
-  Matrix3f covariance = Matrix3f::diagonal(still, still, turn);
-  if (squared_distance > 0.0F) {
-    const float xx = square(back.x_m) / squared_distance;
-    const float xy = back.x_m * back.y_m / squared_distance;
-    const float yy = square(back.y_m) / squared_distance;
-    covariance(0, 0) = along * xx + across * yy;
-    covariance(0, 1) = (along - across) * xy;
-    covariance(1, 1) = along * yy + across * xx;
-    covariance(1, 0) = covariance(0, 1);
-  }
-  // Half of the turn's error, times the way: the end moves to the left of the way by it.
-  covariance(0, 2) = 0.5F * turn * back.y_m;
-  covariance(1, 2) = -0.5F * turn * back.x_m;
-  covariance(2, 0) = covariance(0, 2);
-  covariance(2, 1) = covariance(1, 2);
-  return covariance;
-}
-
 void LocaliserCore::start_match() {
   const PredictionNoise& noise = config_.noise;
   const float blind = square(noise.blind_translation_m);
@@ -235,9 +201,11 @@ bool LocaliserCore::match_step() {
 /// the one that fits clearly more.
 void LocaliserCore::consider(const MatchReport& report) {
   const bool wide = config_.search.enabled && searched_wide_;
-  const bool better = !has_report_ || !usable(report_.outcome) ||
-                      (wide ? report.inlier_share >= report_.inlier_share + config_.search.wide_gain
-                            : report.cost < report_.cost);
+  const bool better =
+      !has_report_ || !usable(report_.outcome) ||
+      (wide ? report.inlier_share >=
+                  report_.inlier_share + (doubted_ ? 0.0F : config_.search.wide_gain)
+            : report.cost < report_.cost);
   if (has_report_ && (!usable(report.outcome) || !better)) { return; }
   report_ = report;
   has_report_ = true;
@@ -250,6 +218,14 @@ bool LocaliserCore::next_candidate() {
   return true;
 }
 
+bool LocaliserCore::fits() const {
+  if (!usable(report_.outcome)) { return false; }
+  const SearchConfig& search = config_.search;
+  const float enough = doubted_ ? search.doubted_inlier_share : search.below_inlier_share;
+  if (report_.inlier_share >= enough) { return true; }
+  return report_.inlier_share >= config_.min_inlier_share && agreement_of(report_) >= enough;
+}
+
 bool LocaliserCore::begin_search() {
   if (searched_) { return false; }
   const SearchConfig& search = config_.search;
@@ -258,10 +234,9 @@ bool LocaliserCore::begin_search() {
   const bool far = !with_odometry_ ||
                    hypotenuse(motion.x_m, motion.y_m) > static_cast<double>(search.after_m) ||
                    turn > static_cast<double>(search.after_rad);
-  if (!far && usable(report_.outcome) && report_.inlier_share >= search.below_inlier_share) {
-    return false;
-  }
+  if (!far && fits()) { return false; }
   searched_ = true;
+  search_.lengthen_steps(1);
   const SearchWindow window{
       .centre = request_.prior.pose,
       .half_translation_m =
@@ -279,14 +254,14 @@ bool LocaliserCore::begin_search() {
 bool LocaliserCore::begin_wide_search() {
   if (searched_wide_) { return false; }
   const SearchConfig& search = config_.search;
-  if (usable(report_.outcome) && report_.inlier_share >= search.below_inlier_share) {
-    return false;
-  }
+  if (fits()) { return false; }
   searched_wide_ = true;
+  search_.lengthen_steps(doubted_ ? 2 : 1);
   request_.prior.information = {};
   const SearchWindow window{
       .centre = to_window(fine_.window(), accepted_map_T_base_),
-      .half_translation_m = std::min(search.wide_half_m, search_.max_half_m(fine_.field())),
+      .half_translation_m = std::min(doubted_ ? 2.0F * search.wide_half_m : search.wide_half_m,
+                                     search_.max_half_m(fine_.field())),
       .half_rotation_rad = search.wide_half_rad};
   if (search_.begin(fine_.field(), sweep_.points, window) != Status::ok) { return false; }
   ++counters_.searched_wide;
@@ -304,6 +279,8 @@ void LocaliserCore::conclude() {
     phase_ = LocaliserPhase::idle;
     return;
   }
+  agreement_ = report_.inlier_share;
+  if (doubted_) { agreement_ = agreement_of(report_); }
   ++counters_.matched;
   map_T_base_ = to_map(fine_.window(), report_.pose);
   last_correction_ = to_f32(between(prediction_, map_T_base_));

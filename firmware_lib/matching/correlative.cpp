@@ -37,7 +37,7 @@ int step_cells_on(const CorrelativeConfig& config, const DistanceFieldView& fiel
 }  // namespace
 
 float CorrelativeSearch::max_half_m(const DistanceFieldView& field) const {
-  return static_cast<float>(kMaxSearchHalfSteps * step_cells_on(config_, field)) /
+  return static_cast<float>(kMaxSearchHalfSteps * step_factor_ * step_cells_on(config_, field)) /
          field.cells_per_m;
 }
 
@@ -51,7 +51,7 @@ Status CorrelativeSearch::begin(const DistanceFieldView& field, const PointsView
     return Status::invalid_argument;
   }
   if (points.size() == 0) { return Status::degenerate; }
-  step_cells_ = step_cells_on(config_, field);
+  step_cells_ = step_factor_ * step_cells_on(config_, field);
   const float step_m = static_cast<float>(step_cells_) / field.cells_per_m;
   half_steps_ = round_to_i32(window.half_translation_m / step_m, 0, kFarCell);
   if (half_steps_ > kMaxSearchHalfSteps) { return Status::full; }

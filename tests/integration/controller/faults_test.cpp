@@ -174,5 +174,59 @@ TEST(Faults, GivenLateLidarPacketsThenTheirStampsStillFitTheOdometry) {
   EXPECT_EQ(drive.silent_wrong(), 0);
 }
 
+/// Drives that once ended in a pose that was wrong without a word; the whole matrix is in
+/// tests/integration/fault_matrix.
+struct KnownTrap {
+  SceneName scene;
+  Device device;
+  FaultKind kind;
+  std::uint64_t seed;
+};
+
+TEST(Faults, GivenTheTrapsOfThePastThenNoSilentWrongPose) {
+  for (const KnownTrap& trap :
+       {KnownTrap{SceneName::office, Device::wheel_left, FaultKind::disconnect, 4},
+        KnownTrap{SceneName::room, Device::wheel_right, FaultKind::disconnect, 6},
+        KnownTrap{SceneName::office, Device::lidar, FaultKind::duplicate, 1},
+        KnownTrap{SceneName::office, Device::lidar, FaultKind::freeze, 16},
+        KnownTrap{SceneName::office, Device::lidar, FaultKind::freeze, 19}}) {
+    const Duration begin = 10s + static_cast<std::int64_t>(trap.seed) * 1370ms;
+    sim::SimulationConfig simulation = test::drive_in(trap.scene, {{.device = trap.device,
+                                                                    .kind = trap.kind,
+                                                                    .begin = begin,
+                                                                    .end = begin + 3s,
+                                                                    .probability = 0.3F,
+                                                                    .delay = 30ms}});
+    simulation.seed = trap.seed;
+    Drive drive{simulation};
+    drive.until(begin + 12s);
+    EXPECT_EQ(drive.silent_wrong(), 0) << "seed " << trap.seed;
+  }
+}
+
+TEST(Faults, GivenAFeaturelessCorridorThenTheStateSaysSoAndThePoseHolds) {
+  Drive drive{test::drive_in(SceneName::corridor)};
+  double worst_m = 0.0;
+  bool told = false;
+  drive.until(60s, [&](const Publication& publication) {
+    worst_m = std::max(worst_m, publication.position_error_m);
+    told |= publication.estimate.reason == HealthReason::direction_unobservable;
+  });
+  EXPECT_TRUE(told);
+  EXPECT_LT(worst_m, 0.15);
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
+TEST(Faults, GivenSurroundingsThatTheWindowForgotThenNoWideSearchHoldsUpTheMatch) {
+  Drive drive{test::drive_in(SceneName::hall)};
+  Duration oldest{0};
+  drive.until(5s);
+  drive.until(120s, [&](const Publication& publication) {
+    oldest = std::max(oldest, publication.estimate.match_age);
+  });
+  EXPECT_LT(oldest, 150ms);
+  EXPECT_EQ(drive.silent_wrong(), 0);
+}
+
 }  // namespace
 }  // namespace picolo

@@ -12,7 +12,7 @@
 namespace picolo {
 namespace {
 
-constexpr MatchVerdict kGood{.accepted = true, .inlier_share = 0.9F};
+constexpr MatchVerdict kGood{.accepted = true, .agreement = 0.95F, .inlier_share = 0.9F};
 constexpr TaskTable<2> kTable{
     TaskEntry{.name = "first", .budget = 1ms},
     TaskEntry{.name = "second", .budget = 1ms, .policy = OverrunPolicy::fault}};
@@ -207,9 +207,10 @@ TEST_F(SupervisorTest, GivenALostPoseThenPoorMatchesDoNotBringItBack) {
   ASSERT_EQ(supervisor.state(), HealthState::lost);
   EXPECT_TRUE(supervisor.doubts_pose());
   for (int i = 0; i < 50; ++i) {
-    supervisor.matched({.accepted = true, .inlier_share = 0.49F});
+    supervisor.matched({.accepted = true, .agreement = 0.9F, .inlier_share = 0.49F});
+    supervisor.matched({.accepted = true, .agreement = 0.7F, .inlier_share = 0.7F});
     tick();
-    ASSERT_EQ(supervisor.state(), HealthState::lost);
+    ASSERT_EQ(supervisor.state(), HealthState::lost) << "a place that looks alike";
   }
   for (int i = 0; i < 5; ++i) { supervisor.matched(kGood); }
   tick();
@@ -221,8 +222,10 @@ TEST_F(SupervisorTest, GivenAPullThenTheSensorsDisagreeAsLongAsItLasts) {
   supervisor.matched(kGood, false, true);
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+  for (int i = 0; i < 4; ++i) { supervisor.matched(kGood, false, false); }
+  EXPECT_TRUE(supervisor.unproven()) << "the pose may have been drawn along";
   supervisor.matched(kGood, false, false);
-  supervisor.matched(kGood, false, false);
+  EXPECT_FALSE(supervisor.unproven());
   for (int i = 0; i < 25; ++i) { tick(); }
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
 }

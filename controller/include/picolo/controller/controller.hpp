@@ -207,6 +207,7 @@ class Controller {
     supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
     supervisor_.turns(pipeline_.turns_disagree());
     supervisor_.searching(pipeline_.searching());
+    pipeline_.doubt(supervisor_.unproven());
     pipeline_.hold_map(supervisor_.doubts_pose() || desk_.mode() == OperatingMode::localising);
     publish(frame_.start);
   }

@@ -72,6 +72,10 @@ struct CovarianceGrowth {
 /// lowers it by one.
 struct MatchTrust {
   float good_inlier_share = 0.5F;  ///< a match with fewer points near obstacles is poor
+  /// After the pose was lost a match with fewer is poor: a place that looks like another one
+  /// differs from it somewhere.
+  float found_again_agreement = 0.85F;
+  int found_again_matches = 5;  ///< good ones in a row, before the pose is believed again
   /// A correction that moves the pose further is a jump, told as an event, ...
   float max_correction_m = 0.05F;
   float max_correction_rad = 0.035F;  ///< ... or turns it further
@@ -79,12 +83,13 @@ struct MatchTrust {
   /// Corrections that keep pointing the same way add up to a pull; chance ones cancel. Beyond these
   /// the sensors disagree.
   float max_pull_m = 0.12F;
-  float max_pull_rad = 0.06F;
+  float max_pull_rad = 0.025F;
   float pull_kept = 0.9F;  ///< share that remains from one match to the next
   [[nodiscard]] constexpr bool valid() const {
     return good_inlier_share >= 0.0F && good_inlier_share <= 1.0F && max_correction_m >= 0.0F &&
-           max_correction_rad >= 0.0F && max_doubt >= 0 && max_pull_m > 0.0F &&
-           max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
+           max_correction_rad >= 0.0F && found_again_agreement >= 0.0F &&
+           found_again_agreement <= 1.0F && found_again_matches > 0 && max_doubt >= 0 &&
+           max_pull_m > 0.0F && max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
   }
 };
 

@@ -50,6 +50,7 @@ struct MatchVerdict {
   Pose2d odom_T_base{};       ///< odometry at `reference`
   Pose2d map_T_base{};        ///< at `reference`
   Matrix3f covariance{};      ///< of map_T_base, map axes
+  float agreement = 0.0F;     ///< see LocaliserCore::agreement
   float inlier_share = 0.0F;  ///< of the points; 1 for the first sweep, which founds the map
 };
 
@@ -85,6 +86,7 @@ class Pipeline {
   bool search(std::size_t max_slices);
   [[nodiscard]] bool searching() const { return localiser_.searching(); }
   /// See LocaliserCore.
+  void doubt(bool doubted) { localiser_.doubt(doubted); }
   void hold_map(bool held) { localiser_.hold_map(held); }
   /// From now on the pose is map_T_odom * odometry. The end of a match that is under way is not
   /// told any more; the next match starts from here.

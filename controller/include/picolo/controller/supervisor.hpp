@@ -41,8 +41,10 @@ class Supervisor {
   /// The pose is lost, or the sensors contradict each other: nothing seen from it should be
   /// remembered.
   [[nodiscard]] bool doubts_pose() const {
-    return state() == HealthState::lost || reason() == HealthReason::sensors_disagree;
+    return unproven_ || state() == HealthState::lost || reason() == HealthReason::sensors_disagree;
   }
+  /// The pose was lost and what is seen from it does not yet fit well.
+  [[nodiscard]] bool unproven() const { return unproven_; }
   void event(Timestamp now, EventCode code, std::int32_t argument);
   /// Counts of the pipeline; what is new becomes an event, at most one of a kind a second.
   void sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped);
@@ -99,6 +101,7 @@ class Supervisor {
   int rejected_streak_ = 0;
   int doubt_ = 0;
   bool pulled_ = false;
+  bool unproven_ = false;  // lost since, and not yet seen to fit
   HealthReason rejection_ = HealthReason::match_rejected;
   bool direction_unobservable_ = false;
   bool turns_disagree_ = false;

@@ -52,6 +52,9 @@ struct SearchConfig {
   float max_half_rad = 0.6109F;
   float wide_half_m = 1.2F;  ///< after a glitch of the odometry: about the last pose
   float wide_half_rad = 2.0944F;
+  /// While the pose is doubted (see LocaliserCore::doubt): search wide, in steps twice as long, for
+  /// every sweep of which fewer points fit, and take the better one.
+  float doubted_inlier_share = 0.85F;
   float wide_gain = 0.2F;  ///< a wide match is taken only when it fits so much more of the points
   std::size_t lookups_per_step = 8192;
   CorrelativeConfig correlative{
@@ -60,7 +63,8 @@ struct SearchConfig {
     return after_m >= 0.0F && after_rad >= 0.0F && min_half_m > 0.0F && max_half_m >= min_half_m &&
            min_half_rad > 0.0F && max_half_rad >= min_half_rad && wide_half_m > 0.0F &&
            wide_half_rad > 0.0F && wide_half_rad <= 3.1416F && wide_gain >= 0.0F &&
-           lookups_per_step > 0 && correlative.valid();
+           doubted_inlier_share >= 0.0F && doubted_inlier_share <= 1.0F && lookups_per_step > 0 &&
+           correlative.valid();
   }
 };
 
@@ -154,6 +158,11 @@ class LocaliserCore {
   Status localise_in_restored_map();
   [[nodiscard]] RollingMapCore& restorable_map() { return fine_; }
   [[nodiscard]] bool localises_only() const { return localises_only_; }
+  /// While doubted, the pose may be far from the truth: what fits badly is searched for widely.
+  void doubt(bool doubted) { doubted_ = doubted; }
+  /// Of the points that the map has an opinion on, the share that is near an obstacle. Looked up
+  /// for accepted matches while doubted; the inlier share otherwise.
+  [[nodiscard]] float agreement() const { return agreement_; }
   /// Of the last sweep whose match is over.
   [[nodiscard]] const MatchReport& report() const { return report_; }
   [[nodiscard]] bool accepted() const { return accepted_; }
@@ -175,6 +184,8 @@ class LocaliserCore {
   void start_match();
   void refine(const Pose2f& start);
   void consider(const MatchReport& report);
+  [[nodiscard]] float agreement_of(const MatchReport& report) const;
+  [[nodiscard]] bool fits() const;
   [[nodiscard]] bool begin_search();
   [[nodiscard]] bool begin_wide_search();
   [[nodiscard]] bool next_candidate();
@@ -217,6 +228,8 @@ class LocaliserCore {
   bool accepted_ = false;
   bool adding_hits_ = false;
   bool map_held_ = false;
+  bool doubted_ = false;
+  float agreement_ = 0.0F;
   bool localises_only_ = false;
   int adopted_rows_ = -1;  // of the coarse map; -1: no map is being adopted
   std::size_t next_point_ = 0;

@@ -62,6 +62,8 @@ class CorrelativeSearch {
   Status begin(const DistanceFieldView& field, const PointsView& points, const SearchWindow& window,
                const PosePrior& prior = {});
 
+  /// Steps of translation this many times as long as configured, for the searches to come.
+  void lengthen_steps(int factor) { step_factor_ = factor; }
   /// The largest half side of a window that `begin` takes on this field.
   [[nodiscard]] float max_half_m(const DistanceFieldView& field) const;
 
@@ -104,6 +106,7 @@ class CorrelativeSearch {
   std::size_t found_ = 0;
   std::size_t point_count_ = 0;
   std::size_t next_point_ = 0;
+  int step_factor_ = 1;
   int step_cells_ = 1;
   int half_steps_ = 0;
   int side_ = 1;

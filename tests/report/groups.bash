@@ -128,25 +128,30 @@ long_groups() {
     builds+=(host-debug)
     ctest_rows host-debug " host-debug" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
+  compare_builds "${builds[@]}"
+}
+
+compare_builds() {
+  say "run: comparing trajectories of $*"
+  "$root/tests/determinism/compare_builds" "$root/build" "$tool" "$@" >>"$records"
+}
+
+# Hours: the other compiler, AVX2, every platform, the sanitizers, fuzzing, lint.
+campaign_groups() {
+  local builds=(host-release)
   if build_row host-clang; then
     builds+=(host-clang)
     ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
   fi
   if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
-  fuzz_groups '^fuzz$'
+  compare_builds "${builds[@]}"
   target_groups
-  say "run: comparing trajectories of ${builds[*]}"
-  "$root/tests/determinism/compare_builds" "$root/build" "$tool" "${builds[@]}" >>"$records"
-}
-
-# Hours: the sanitizers, lint.
-campaign_groups() {
   if build_row host-asan; then
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
       --label-regex '^(unit|property|drivers|ports|integration)$' --label-exclude '^(slow|fuzz)$'
   fi
-  fuzz_groups '^fuzz_long$'
+  fuzz_groups '^(fuzz|fuzz_long)$'
   lint_row
 }
 

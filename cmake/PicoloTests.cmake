@@ -2,7 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # picolo_test(NAME LABELS label... [DEPENDS targets...] [DEFINITIONS ...] [PROPERTIES ctest...] [TIMEOUT s]): all *.cpp of the calling folder form one
 # Google Test binary; every TEST in it is one ctest entry named NAME.Suite.Case and carries the labels. The first label is
-# the group: unit, property, drivers, ports, integration ...; `slow` and `fuzz` beside it keep a test out of the short run.
+# the group: unit, property, drivers, ports, integration ...; `slow` beside it (as in integration-slow) keeps a test out of
+# the short run.
 # PICOLO_TEST_DATA is where recordings are looked for; tests that need one say PICOLO_NEED_DATA (tests/support).
 include(GoogleTest)
 
@@ -18,6 +19,8 @@ function(picolo_test name)
   if(NOT name MATCHES "^${group}(_|$)")
     set(name ${group}_${name})
   endif()
+  # gtest_discover_tests takes a list apart and keeps its first element: one word carries all labels.
+  list(JOIN ARG_LABELS - label)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
   add_executable(test_${name} ${sources})
   target_link_libraries(test_${name} PRIVATE picolo_test_support ${ARG_DEPENDS} picolo::picolo
@@ -26,5 +29,5 @@ function(picolo_test name)
   # The library under test keeps its optimisation; tests themselves build a third faster with less.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
   gtest_discover_tests(test_${name} TEST_PREFIX ${name}. DISCOVERY_MODE PRE_TEST
-    PROPERTIES LABELS "${ARG_LABELS}" TIMEOUT ${ARG_TIMEOUT} ${ARG_PROPERTIES})
+    PROPERTIES LABELS ${label} TIMEOUT ${ARG_TIMEOUT} ${ARG_PROPERTIES})
 endfunction()

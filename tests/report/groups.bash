@@ -101,7 +101,7 @@ short_groups() {
     say "run: no ARM compiler or no QEMU (see build/arm-packages.log): the group target is skipped"
     export PICOLO_TARGETS=none
   fi
-  ctest_rows host-release "" --label-exclude '^(slow|fuzz)$'
+  ctest_rows host-release "" --label-exclude '(^|-)(slow|fuzz)$'
 }
 
 # Every platform of the one hash.
@@ -122,11 +122,11 @@ fuzz_groups() {
 }
 
 long_groups() {
-  ctest_rows host-release " slow" --label-regex '^slow$' --label-exclude '^fuzz$'
+  ctest_rows host-release " slow" --label-regex '(^|-)slow$'
   local builds=(host-release)
   if build_row host-debug; then
     builds+=(host-debug)
-    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
+    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
   fi
   compare_builds "${builds[@]}"
 }
@@ -141,7 +141,7 @@ campaign_groups() {
   local builds=(host-release)
   if build_row host-clang; then
     builds+=(host-clang)
-    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)$' --label-exclude '^(slow|fuzz)$'
+    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
   fi
   if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
   compare_builds "${builds[@]}"
@@ -149,7 +149,7 @@ campaign_groups() {
   if build_row host-asan; then
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
-      --label-regex '^(unit|property|drivers|ports|integration)$' --label-exclude '^(slow|fuzz)$'
+      --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
   fi
   fuzz_groups '^(fuzz|fuzz_long)$'
   lint_row

@@ -32,7 +32,7 @@ class Archive : public ::testing::TestWithParam<const char*> {};
 
 TEST_P(Archive, RefersToNothingForbiddenAndOwnsNoMemory) {
   const auto symbols =
-      parse_symbols(output_of(std::string{PICOLO_NM} + " --format=sysv " + GetParam()));
+      parse_symbols(output_of(PICOLO_NM " --format=sysv " + std::string{GetParam()}));
   ASSERT_GT(symbols.size(), 10U) << "nm found nothing in " << GetParam();
   for (const Symbol& symbol : symbols) {
     EXPECT_EQ(symbol_violation(symbol), "") << GetParam() << ": " << symbol.name;

@@ -86,12 +86,7 @@ void Bno08xRvcProtocol::interrupted() {
 }
 
 SerialCounters Bno08xRvcProtocol::counters() const {
-  SerialCounters counters = counters_;
-  counters.frames = framer_.counters().frames;
-  counters.bad_checksums = framer_.counters().bad_checksums;
-  counters.implausible = framer_.counters().implausible;
-  counters.skipped_bytes = framer_.counters().skipped_bytes;
-  return counters;
+  return with_framer(counters_, framer_.counters());
 }
 
 }  // namespace picolo::inline v0

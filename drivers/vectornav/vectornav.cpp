@@ -6,16 +6,9 @@
 #include <algorithm>
 
 #include "picolo/core/number_model.hpp"
+#include "picolo/drivers/common/full_scale.hpp"
 
 namespace picolo::inline v0 {
-namespace {
-
-bool beyond(const std::array<float, 3>& axes, float limit) {
-  return std::any_of(axes.begin(), axes.end(),
-                     [limit](float value) { return value >= limit || value <= -limit; });
-}
-
-}  // namespace
 
 bool VectornavProtocol::to_sample(Timestamp sent, StampSource source, ImuSample& sample) {
   if (!data_.rate_radps || !data_.acceleration_mps2) { return false; }
@@ -61,10 +54,7 @@ std::size_t VectornavProtocol::push(std::uint8_t byte, const ByteTime& time,
 }
 
 SerialCounters VectornavProtocol::counters() const {
-  SerialCounters counters = counters_;
-  counters.frames = framer_.counters().frames;
-  counters.bad_checksums = framer_.counters().bad_checksums;
-  counters.skipped_bytes = framer_.counters().skipped_bytes;
+  SerialCounters counters = with_framer(counters_, framer_.counters());
   counters.clock_restarts = clock_.restarts();
   return counters;
 }

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "picolo/core/number_model.hpp"
+#include "picolo/drivers/common/full_scale.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -14,11 +15,6 @@ namespace {
 constexpr std::uint32_t kClipped = 0x3F00U | (1U << 19U);
 constexpr std::array<std::uint8_t, 5> kGoToMeasurement{0xFA, 0xFF, 0x10, 0x00, 0xF1};
 constexpr std::array<std::uint8_t, 5> kGoToConfig{0xFA, 0xFF, 0x30, 0x00, 0xD1};
-
-bool beyond(const std::array<float, 3>& axes, float limit) {
-  return std::any_of(axes.begin(), axes.end(),
-                     [limit](float value) { return value >= limit || value <= -limit; });
-}
 
 }  // namespace
 
@@ -97,10 +93,7 @@ void XsensProtocol::interrupted() {
 }
 
 SerialCounters XsensProtocol::counters() const {
-  SerialCounters counters = counters_;
-  counters.frames = framer_.counters().frames;
-  counters.bad_checksums = framer_.counters().bad_checksums;
-  counters.skipped_bytes = framer_.counters().skipped_bytes;
+  SerialCounters counters = with_framer(counters_, framer_.counters());
   counters.clock_restarts = clock_.restarts();
   return counters;
 }

@@ -7,7 +7,6 @@
 
 #include "picolo/evaluation/alignment.hpp"
 
-#include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/best_rotation.hpp"
 
@@ -48,13 +47,10 @@ Alignment around_means(const Moments& moments, const Matrix3d& rotation, double 
 }
 
 Result<Alignment> planar(const Moments& moments) {
-  const Matrix3d& c = moments.cross_covariance;
-  const double cosine = c(0, 0) + c(1, 1);
-  const double sine = c(1, 0) - c(0, 1);
-  const double length = hypotenuse(cosine, sine);
-  if (!(length > 0.0)) { return Status::degenerate; }
-  const double co = cosine / length;
-  const double si = sine / length;
+  const Result<BestPlanarRotation> best = best_planar_rotation(moments.cross_covariance, 0.0);
+  if (!best) { return best.status(); }
+  const double co = best->cosine;
+  const double si = best->sine;
   Alignment result = around_means(moments, {{co, -si, 0.0, si, co, 0.0, 0.0, 0.0, 1.0}}, 1.0);
   result.motion.translation_m.z = 0.0;
   return result;

@@ -5,6 +5,7 @@
 
 #include <array>
 
+#include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/jacobi_svd.hpp"
 #include "picolo/geometry/so3.hpp"
@@ -33,6 +34,17 @@ Result<BestRotation> best_rotation(const Matrix3d& correlation, double rank_tole
   const Matrix3d plane = sum(outer(u1, column(v, 0)), outer(u2, column(v, 1)));
   const double third = dot(u3, column(us, 2)) * dot(v3, column(v, 2));
   return BestRotation{sum(plane, outer(u3, v3)), (s[0] + s[1]) + third};
+}
+
+Result<BestPlanarRotation> best_planar_rotation(const Matrix3d& correlation,
+                                                double rank_tolerance) {
+  const Matrix3d& c = correlation;
+  const double cosine = c(0, 0) + c(1, 1);
+  const double sine = c(1, 0) - c(0, 1);
+  const double length = hypotenuse(cosine, sine);
+  const double scale = hypotenuse(hypotenuse(c(0, 0), c(0, 1)), hypotenuse(c(1, 0), c(1, 1)));
+  if (!(length > rank_tolerance * scale)) { return Status::degenerate; }
+  return BestPlanarRotation{cosine / length, sine / length};
 }
 
 }  // namespace picolo::inline v0

@@ -46,22 +46,17 @@ Moments moments_of(std::span<const Point> a_p, std::span<const Point> b_p) {
 
 }  // namespace
 
-// In the plane the decomposition has the closed form angle = atan2(c10 - c01, c00 + c11).
 Result<Pose2d> align_points(std::span<const Point2<double>> a_p,
                             std::span<const Point2<double>> b_p) {
   if (a_p.size() != b_p.size() || a_p.size() < 2) { return Status::invalid_argument; }
   const Moments moments = moments_of(a_p, b_p);
-  const Matrix3d& c = moments.correlation;
-  const double cosine = c(0, 0) + c(1, 1);
-  const double sine = c(1, 0) - c(0, 1);
-  const double length = hypotenuse(cosine, sine);
-  const double scale = hypotenuse(hypotenuse(c(0, 0), c(0, 1)), hypotenuse(c(1, 0), c(1, 1)));
-  if (!(scale > 0.0) || !(length > kRankTolerance * scale)) { return Status::degenerate; }
-  const double co = cosine / length;
-  const double si = sine / length;
+  const Result<BestPlanarRotation> best = best_planar_rotation(moments.correlation, kRankTolerance);
+  if (!best) { return best.status(); }
+  const double co = best->cosine;
+  const double si = best->sine;
   const Vector3d& b = moments.b_mean;
   return Pose2d{moments.a_mean.x - (co * b.x - si * b.y), moments.a_mean.y - (si * b.x + co * b.y),
-                arc_tangent2(sine, cosine)};
+                arc_tangent2(si, co)};
 }
 
 Result<Transform3d> align_points(std::span<const Vector3d> a_p, std::span<const Vector3d> b_p) {

@@ -4,14 +4,13 @@
 #include "can_node.hpp"
 
 #include <gtest/gtest.h>
-#include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include "support/raw_can_frame.hpp"
 
 namespace picolo::test {
 namespace {
@@ -55,19 +54,11 @@ bool CanNode::send(const canfd_frame& frame) const {
 }
 
 bool CanNode::send(const CanFrame& frame) const {
-  can_frame raw{};
-  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
-  raw.can_dlc = frame.length;
-  std::copy(frame.data.begin(), frame.data.end(), std::begin(raw.data));
-  return send(raw);
+  return send(raw_frame(frame));
 }
 
 bool CanNode::send_error(std::uint32_t kind, std::uint8_t controller) const {
-  can_frame raw{};
-  raw.can_id = CAN_ERR_FLAG | kind;
-  raw.can_dlc = CAN_ERR_DLC;
-  raw.data[1] = controller;
-  return send(raw);
+  return send(raw_error(kind, controller));
 }
 
 Result<CanFrame> CanNode::receive(Duration patience) const {
@@ -79,13 +70,7 @@ Result<CanFrame> CanNode::receive(Duration patience) const {
   if (::recv(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT) != static_cast<ssize_t>(sizeof raw)) {
     return Status::not_ready;
   }
-  CanFrame frame;
-  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
-  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
-  frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
-  frame.length = raw.can_dlc;
-  std::copy(std::begin(raw.data), std::end(raw.data), frame.data.begin());
-  return frame;
+  return frame_of(raw);
 }
 
 Result<CanFrame> next(CanBus& bus) {

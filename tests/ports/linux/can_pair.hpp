@@ -4,17 +4,15 @@
 /// Both ends of a socket pair that carries struct can_frame, as a raw CAN socket does.
 #pragma once
 
-#include <linux/can.h>
-#include <linux/can/error.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <stdexcept>
 
 #include "picolo/hal/can_bus.hpp"
 #include "picolo/linux/file_descriptor.hpp"
+#include "support/raw_can_frame.hpp"
 
 namespace picolo::test {
 
@@ -38,34 +36,16 @@ class CanPair {
     return ::send(other_.get(), &wire, sizeof wire, MSG_DONTWAIT | MSG_NOSIGNAL) ==
            static_cast<ssize_t>(sizeof wire);
   }
-  bool send(const CanFrame& frame) const {
-    can_frame raw{};
-    raw.can_id =
-        frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
-    raw.can_dlc = frame.length;
-    std::copy(frame.data.begin(), frame.data.end(), std::begin(raw.data));
-    return send<can_frame>(raw);
-  }
-  /// An error frame as the kernel makes it.
+  bool send(const CanFrame& frame) const { return send(raw_frame(frame)); }
   bool send_error(std::uint32_t kind, std::uint8_t controller = 0) const {
-    can_frame raw{};
-    raw.can_id = CAN_ERR_FLAG | kind;
-    raw.can_dlc = CAN_ERR_DLC;
-    raw.data[1] = controller;
-    return send<can_frame>(raw);
+    return send(raw_error(kind, controller));
   }
   Result<CanFrame> receive() const {
     can_frame raw{};
     if (::recv(other_.get(), &raw, sizeof raw, MSG_DONTWAIT) != static_cast<ssize_t>(sizeof raw)) {
       return Status::not_ready;
     }
-    CanFrame frame;
-    frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
-    frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
-    frame.id = raw.can_id & (frame.extended ? CAN_EFF_MASK : CAN_SFF_MASK);
-    frame.length = raw.can_dlc;
-    std::copy(std::begin(raw.data), std::end(raw.data), frame.data.begin());
-    return frame;
+    return frame_of(raw);
   }
 
  private:

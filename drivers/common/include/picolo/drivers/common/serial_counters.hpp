@@ -6,6 +6,8 @@
 
 #include <cstdint>
 
+#include "picolo/drivers/common/framer.hpp"
+
 namespace picolo::inline v0 {
 
 /// Never reset. What does not apply to a device stays 0.
@@ -21,5 +23,15 @@ struct SerialCounters {
   std::uint32_t clock_restarts = 0;  ///< the device's clock did not fit ours any more
   std::uint32_t restarts = 0;        ///< the device was silent and was started again
 };
+
+/// `counters` with what the framer counts filled in.
+[[nodiscard]] constexpr SerialCounters with_framer(SerialCounters counters,
+                                                   const FramerCounters& framer) {
+  counters.frames = framer.frames;
+  counters.bad_checksums = framer.bad_checksums;
+  counters.implausible += framer.implausible;
+  counters.skipped_bytes = framer.skipped_bytes;
+  return counters;
+}
 
 }  // namespace picolo::inline v0

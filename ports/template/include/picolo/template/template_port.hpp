@@ -1,10 +1,9 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// An empty port: copy the folder, rename it, and fill in the functions. It compiles as it is, and
-/// the conformance suite says what each function still lacks (hal/conformance; tests/ports/template
-/// shows how to run it). Order that works: Clock, SerialPort, CanBus, ByteStore, CycleCounter,
-/// Watchdog.
+/// An empty port: copy the folder, rename it, and fill in the twelve functions of its .cpp file. It
+/// compiles as it is, and the conformance suite says which function comes next and what it lacks
+/// (`picolo_template_conformance`; docs/porting.md).
 #pragma once
 
 #include "picolo/hal/byte_store.hpp"

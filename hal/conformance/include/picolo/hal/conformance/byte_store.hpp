@@ -59,8 +59,14 @@ template <ByteStoreHarness Harness>
 void byte_store_erases_and_programs(Harness& harness, Checker& checker) {
   ByteStore& store = harness.store();
   const ByteStoreGeometry g = store.geometry();
-  const bool erased = is_ok(store.erase(0)) && is_ok(store.erase(g.sector));
-  checker.expect(erased && store_holds(store, 0, 2 * g.sector, 0xFF), "erased bytes read 0xFF",
+  checker.expect(is_ok(store.erase(0)) && is_ok(store.erase(g.sector)),
+                 "ByteStore::erase answers ok to the start of a sector",
+                 "unlock the flash controller, erase one sector, wait for its end");
+  checker.expect(is_ok(store.read(0, std::span<std::uint8_t>{})),
+                 "ByteStore::read answers ok to an address inside of the store",
+                 "copy from the flash's address in memory");
+  checker.expect(store_holds(store, 0, 2 * g.sector, 0xFF),
+                 "ByteStore::erase leaves bytes that read 0xFF",
                  "wait for the erase to end; invalidate the cache");
 
   std::array<std::uint8_t, 2 * kMaxGranule> pattern{};
@@ -74,6 +80,8 @@ void byte_store_erases_and_programs(Harness& harness, Checker& checker) {
   const bool got = is_ok(store.read(g.sector - g.granule, std::span{back}.first(two.size())));
   bool same = programmed && got;
   for (std::size_t i = 0; i < two.size(); ++i) { same = same && back[i] == two[i]; }
+  checker.expect(programmed, "ByteStore::program answers ok to whole granules of erased bytes",
+                 "unlock the flash controller, write word by word, wait for its end");
   checker.expect(same, "read returns what was programmed, over the border of sectors too",
                  "split a write that crosses a page");
   checker.expect(store_holds(store, 0, g.sector - g.granule, 0xFF),

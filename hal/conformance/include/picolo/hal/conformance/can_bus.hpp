@@ -16,8 +16,9 @@ namespace picolo::inline v0::conformance {
 /// `inject`: another node sends a frame. `sent`: the oldest frame of the port that another node has
 /// received and not yet returned, `not_ready` when there is none. `wait`: lets time pass. `now`:
 /// the port's clock. Optional: `unplug()` and `plug()`, for a controller that can go away and come
-/// back; `static constexpr std::uint8_t kRemoteLength`, for an emulated controller that damages
-/// remote frames of other lengths.
+/// back; `hold()` and `release()`, for an emulated wire that takes no time: frames stay in the
+/// controller in between; `static constexpr std::uint8_t kRemoteLength`, for an emulated controller
+/// that damages remote frames of other lengths.
 template <typename H>
 concept CanBusHarness = requires(H& harness, const CanFrame& frame, Duration duration) {
   { harness.bus() } -> std::convertible_to<CanBus&>;
@@ -171,6 +172,7 @@ void can_bus_refuses_impossible_frames(Harness& harness, Checker& checker) {
 template <CanBusHarness Harness>
 void can_bus_survives_a_full_queue(Harness& harness, Checker& checker) {
   const std::uint32_t refused_before = harness.bus().status().tx_refused;
+  if constexpr (requires { harness.hold(); }) { harness.hold(); }
   Status status = Status::ok;
   for (int i = 0; i < 20'000 && is_ok(status); ++i) {
     status = harness.bus().transmit(numbered_frame(1));
@@ -180,6 +182,7 @@ void can_bus_survives_a_full_queue(Harness& harness, Checker& checker) {
                  "bound the send queue; map ENOBUFS and EAGAIN to full");
   checker.expect(harness.bus().status().tx_refused > refused_before,
                  "CanStatus::tx_refused counts the frames that found no room", "count in transmit");
+  if constexpr (requires { harness.release(); }) { harness.release(); }
   bool drained = false;
   for (int i = 0; i < 20'000 && !drained; ++i) {
     if (!harness.sent()) {

@@ -79,6 +79,15 @@ void serial_port_reads(Harness& harness, Checker& checker) {
                  "SerialPort::read answers not_ready while no byte waits",
                  "never block in read; VMIN and O_NONBLOCK on Linux");
   const AllBytes bytes = all_bytes();
+  const bool one = harness.inject(std::span{bytes}.subspan(0x55, 1));
+  harness.wait(kLongEnough);
+  const Result<SerialRead> first = harness.port().read(got);
+  if (!checker.expect(one && first && first->size == 1 && got[0] == 0x55,
+                      "SerialPort::read delivers a byte that has arrived",
+                      "let the receive interrupt push it into a ring and pop that in read; check "
+                      "the baud rate, the pins and the interrupt's number")) {
+    return;
+  }
   for (const std::size_t chunk : {std::size_t{256}, std::size_t{7}, std::size_t{1}}) {
     got.fill(0);
     const Timestamp begin = harness.now();
@@ -109,6 +118,7 @@ void serial_port_writes(Harness& harness, Checker& checker) {
   bool counts_right = true;
   for (int turn = 0; turn < 256 && arrived < bytes.size(); ++turn) {
     const Result<std::size_t> taken = harness.port().write(std::span{bytes}.subspan(written));
+    if (!taken && taken.status() != Status::full) { break; }
     if (taken) {
       counts_right = counts_right && *taken <= bytes.size() - written;
       written += counts_right ? *taken : 0;

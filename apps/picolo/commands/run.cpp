@@ -4,18 +4,17 @@
 #include <unistd.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <filesystem>
 #include <memory>
 #include <numbers>
 #include <optional>
 #include <stdexcept>
-#include <system_error>
 #include <vector>
 
 #include "commands.hpp"
 #include "live/can_line.hpp"
 #include "live/live_loop.hpp"
+#include "live/serial_line.hpp"
 #include "live/stop_signal.hpp"
 #include "picolo/host/files.hpp"
 #include "picolo/linux/device_watchdog.hpp"
@@ -46,28 +45,6 @@ struct Options {
   bool json = false;
   bool quiet = false;
 };
-
-/// Opens a line, or says that it is waited for. Throws UserError for what waiting cannot cure.
-void open_line(TermiosSerialPort& port, const std::string& path, const char* device) {
-  if (path.empty()) { return; }
-  errno = 0;
-  const Status status = port.open(path.c_str());
-  const int error = errno;
-  if (status == Status::ok) { return; }
-  const std::string reason = std::generic_category().message(error);
-  if (status == Status::io_error && (error == ENOENT || error == ENXIO || error == ENODEV)) {
-    fmt::print(stderr, "picolo: {} {}: {}; waiting for it\n", device, path, reason);
-    return;
-  }
-  if (status == Status::io_error && error == EACCES) {
-    throw host::UserError{ExitCode::device, path, "you may not open it",
-                          "join the group dialout: sudo usermod -aG dialout $USER, log in again"};
-  }
-  throw host::UserError{ExitCode::device, path,
-                        status == Status::unsupported ? "is no serial line, or not of this rate"
-                                                      : "cannot be opened: " + reason,
-                        "picolo doctor --" + std::string{device} + " " + path + " looks closer"};
-}
 
 /// What the kernel shall let pass: the wheels' frames, commands, and who pretends to be us.
 std::vector<CanFilter> filters_for(const VehicleSettings& settings, CanBus& bus) {
@@ -187,8 +164,8 @@ ExitCode run(const Options& options) {
   TermiosSerialPort lidar{linux_clock,
                           {.baud = settings.lidar_baud, .dtr = kind == nullptr || kind->dtr}};
   TermiosSerialPort imu{linux_clock, {.baud = settings.imu_baud}};
-  open_line(lidar, options.lidar, "lidar");
-  open_line(imu, options.imu, "imu");
+  static_cast<void>(open_line(lidar, options.lidar, "lidar"));
+  if (!options.imu.empty()) { static_cast<void>(open_line(imu, options.imu, "imu")); }
   FileByteStore store{{.geometry = kMapStoreGeometry}};
   if (!options.store.empty() && !is_ok(store.open(options.store.c_str()))) {
     throw host::UserError{ExitCode::device, options.store, "is no store of picolo, or in use",
@@ -266,7 +243,9 @@ void add_run(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("run", "The controller live on a CAN bus and serial lines");
-  command->add_option("--can", options->can, "CAN interface, or socket:PATH of a simulation")
+  command
+      ->add_option("--can", options->can,
+                   "CAN interface, slcan:TTY of a USB adapter, or socket:PATH of a simulation")
       ->required()
       ->type_name("IF");
   command->add_option("--lidar", options->lidar, "Serial line of the lidar")
@@ -300,6 +279,9 @@ void add_run(CLI::App& app, Action& action) {
       "  picolo run --can can0 --lidar /dev/ttyUSB0 --imu /dev/ttyUSB1 --config vehicle.toml\n"
       "  picolo run --can can0 --lidar /dev/ttyUSB0 --imu /dev/ttyUSB1 --record /tmp/drive\n"
       "      picolo replay /tmp/drive gives the same poses bit for bit\n"
+      "  picolo run --can slcan:/dev/ttyACM0 --lidar /dev/ttyUSB0 --imu /dev/ttyUSB1\n"
+      "      an adapter that speaks SLCAN, without slcand; slcan:TTY,BITRATE,BAUD for other than\n"
+      "      500000 bit/s on the bus and 2000000 baud on the line\n"
       "  picolo simulate --can socket:/tmp/bus --lidar-pty /tmp/lidar --imu-pty /tmp/imu &\n"
       "  picolo run --can socket:/tmp/bus --lidar /tmp/lidar --imu /tmp/imu\n"
       "      without any hardware\n"

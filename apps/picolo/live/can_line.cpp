@@ -9,9 +9,11 @@
 #include <cerrno>
 #include <charconv>
 #include <cstring>
+#include <sstream>
 #include <system_error>
 #include <utility>
 
+#include "live/serial_line.hpp"
 #include "picolo/host/error.hpp"
 
 namespace picolo::tool {
@@ -22,6 +24,13 @@ using host::UserError;
 
 constexpr Duration kLookPeriod = 200ms;
 constexpr int kKind = SOCK_SEQPACKET | SOCK_NONBLOCK | SOCK_CLOEXEC;
+
+/// 0: no number.
+std::uint32_t to_rate(const std::string& text) {
+  std::uint32_t rate = 0;
+  const char* end = text.data() + text.size();
+  return std::from_chars(text.data(), end, rate).ptr == end ? rate : 0;
+}
 
 std::string errno_text() {
   return std::generic_category().message(errno);
@@ -64,6 +73,7 @@ bool CanLine::open(std::span<const CanFilter> filters) {
     look();
     return joined_;
   }
+  if (name_.rfind("slcan:", 0) == 0) { return open_adapter(name_.substr(6)); }
   if (name_.rfind("fd:", 0) == 0) {
     int fd = -1;
     const char* end = name_.data() + name_.size();
@@ -88,6 +98,27 @@ bool CanLine::open(std::span<const CanFilter> filters) {
                   "ip -details link shows the interfaces; picolo doctor --can looks closer"};
 }
 
+bool CanLine::open_adapter(const std::string& words) {
+  std::istringstream text{words};
+  std::string path;
+  std::string bit_rate = "500000";
+  std::string baud = "2000000";
+  std::string rest;
+  std::getline(text, path, ',');
+  std::getline(text, bit_rate, ',');
+  std::getline(text, baud, ',');
+  const SlcanConfig config{.bit_rate = to_rate(bit_rate)};
+  const TermiosConfig line{.baud = to_rate(baud)};
+  if (path.empty() || std::getline(text, rest) || !config.valid() || !line.valid()) {
+    throw UserError{ExitCode::usage, "--can " + name_, "is no serial adapter's name",
+                    "give slcan:TTY[,BITRATE[,BAUD]]; bit rates are 10, 20, 50, 100, 125, 250, "
+                    "500, 800 or 1000 times 1000"};
+  }
+  serial_.emplace(clock_, line);
+  adapter_.emplace(*serial_, config);
+  return open_line(*serial_, path, "can");
+}
+
 void CanLine::look() {
   const Timestamp now = clock_.now();
   if (now < next_look_) { return; }
@@ -104,6 +135,7 @@ void CanLine::look() {
 }
 
 Result<CanFrame> CanLine::receive() {
+  if (adapter_) { return adapter_->receive(); }
   if (!path_.empty() && !joined_) {
     look();
     if (!joined_) { return Status::disconnected; }

@@ -1,21 +1,24 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// A CAN bus by the name that the command line gives it: an interface, or a socket for machines
-/// whose kernel has no CAN.
+/// A CAN bus by the name that the command line gives it: an interface, a serial adapter, or a
+/// socket for machines whose kernel has no CAN.
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 
+#include "picolo/drivers/slcan/slcan_bus.hpp"
 #include "picolo/hal/can_bus.hpp"
 #include "picolo/linux/file_descriptor.hpp"
 #include "picolo/linux/socket_can_bus.hpp"
+#include "picolo/linux/termios_serial_port.hpp"
 
 namespace picolo::tool {
 
-/// can0: that interface. socket:PATH: frames as datagrams to the one other process that names the
-/// same path. fd:N: an open socket of that kind.
+/// can0: that interface. slcan:TTY[,BITRATE[,BAUD]]: a serial adapter. socket:PATH: frames as
+/// datagrams to the one other process that names the same path. fd:N: an open socket of that kind.
 class CanLine final : public CanBus {
  public:
   enum class Role { first, second };  ///< of a socket: the first makes it, the second looks for it
@@ -28,10 +31,15 @@ class CanLine final : public CanBus {
   [[nodiscard]] const std::string& name() const { return name_; }
 
   Result<CanFrame> receive() override;
-  Status transmit(const CanFrame& frame) override { return bus_.transmit(frame); }
-  [[nodiscard]] CanStatus status() const override { return bus_.status(); }
+  Status transmit(const CanFrame& frame) override {
+    return adapter_ ? adapter_->transmit(frame) : bus_.transmit(frame);
+  }
+  [[nodiscard]] CanStatus status() const override {
+    return adapter_ ? adapter_->status() : bus_.status();
+  }
 
  private:
+  bool open_adapter(const std::string& words);
   void look();
 
   Clock& clock_;
@@ -39,6 +47,8 @@ class CanLine final : public CanBus {
   std::string path_;
   Role role_;
   SocketCanBus bus_;
+  std::optional<TermiosSerialPort> serial_;
+  std::optional<SlcanBus> adapter_;  // on serial_
   FileDescriptor listener_;
   bool joined_ = false;
   Timestamp next_look_{};

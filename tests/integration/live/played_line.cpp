@@ -28,6 +28,11 @@ void PlayedLine::send(std::span<const std::uint8_t> bytes) const {
   static_cast<void>(!::write(master_.get(), bytes.data(), bytes.size()));
 }
 
+std::size_t PlayedLine::take(std::span<std::uint8_t> buffer) const {
+  const ssize_t count = ::read(master_.get(), buffer.data(), buffer.size());
+  return count > 0 ? static_cast<std::size_t>(count) : 0;
+}
+
 std::uint32_t PlayedLine::rate() const {
   termios2 line{};
   return ::ioctl(master_.get(), TCGETS2, &line) == 0 ? line.c_ospeed : 0;

@@ -4,6 +4,7 @@
 /// A serial line whose device a test plays.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -17,6 +18,8 @@ class PlayedLine {
   PlayedLine();
   [[nodiscard]] const std::string& path() const { return path_; }
   void send(std::span<const std::uint8_t> bytes) const;
+  /// What the program wrote; returns how much.
+  std::size_t take(std::span<std::uint8_t> buffer) const;
   /// That the program has set, bits per second.
   [[nodiscard]] std::uint32_t rate() const;
 

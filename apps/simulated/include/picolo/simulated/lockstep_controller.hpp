@@ -38,7 +38,7 @@ class LockstepController {
 
   explicit LockstepController(CycleCounter& cycle_counter)
       : board_(sim::kLd06Baud, sim::WitMotionModelConfig{}.baud),
-        wheels_(board_.can(), wheels_config()),
+        wheels_(board_.can(), simulated_wheels_config()),
         lidar_(board_.lidar()),
         imu_(board_.imu()),
         controller_({board_.can(), board_.clock(), cycle_counter, board_.watchdog()}, wheels_,
@@ -82,13 +82,6 @@ class LockstepController {
   [[nodiscard]] const Type& controller() const { return controller_; }
 
  private:
-  [[nodiscard]] static CanopenWheelsConfig wheels_config() {
-    CanopenWheelsConfig config =
-        two_cia402_drives(sim::WheelPairConfig{}.left.node, sim::WheelPairConfig{}.right.node);
-    config.produce_sync = true;
-    return config;
-  }
-
   lockstep::LockstepBoard board_;
   CanopenWheels wheels_;
   Ld06 lidar_;

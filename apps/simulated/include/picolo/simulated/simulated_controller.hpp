@@ -23,6 +23,14 @@ namespace picolo::inline v0 {
   return config;
 }
 
+/// Its drives as they come: the firmware sends SYNC.
+[[nodiscard]] constexpr CanopenWheelsConfig simulated_wheels_config(
+    const sim::WheelPairConfig& pair = {}) {
+  CanopenWheelsConfig config = two_cia402_drives(pair.left.node, pair.right.node);
+  config.produce_sync = true;
+  return config;
+}
+
 /// About 1 MB more than the profile's controller: keep it off the stack. The controller's map frame
 /// is world_T_start.
 template <Profile P>
@@ -37,7 +45,7 @@ class SimulatedController {
                                CycleCounter* cycle_counter = nullptr,
                                const ControllerServices& services = {})
       : simulation_(simulation),
-        wheels_(simulation_.can(), wheels_config(simulation)),
+        wheels_(simulation_.can(), simulated_wheels_config(simulation.wheels)),
         lidar_(simulation_.lidar_port()),
         imu_(simulation_.imu_port()),
         controller_({simulation_.can(), simulation_.clock(),
@@ -77,13 +85,6 @@ class SimulatedController {
   [[nodiscard]] const EventRing& events() const { return events_; }
 
  private:
-  [[nodiscard]] static CanopenWheelsConfig wheels_config(const sim::SimulationConfig& simulation) {
-    CanopenWheelsConfig config =
-        two_cia402_drives(simulation.wheels.left.node, simulation.wheels.right.node);
-    config.produce_sync = true;
-    return config;
-  }
-
   sim::Simulation simulation_;
   CanopenWheels wheels_;
   Ld06 lidar_;

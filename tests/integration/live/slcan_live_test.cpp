@@ -1,0 +1,58 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// picolo run on a CAN adapter that speaks SLCAN: the test is the adapter.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <array>
+
+#include "played_line.hpp"
+#include "process.hpp"
+#include "support/slcan_adapter.hpp"
+
+namespace picolo {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(SlcanLive, TheControllerOpensAnAdapterAndTalksThroughIt) {
+  const test::TemporaryFolder folder;
+  const test::PlayedLine line;
+  test::SlcanAdapter adapter;
+  test::Process run{folder,
+                    "run",
+                    {"run", "--can", "slcan:" + line.path() + ",250000,1000000", "--lidar", "none",
+                     "--imu", "none", "--json"}};
+  const std::string foreign = test::SlcanAdapter::line_of({.id = 0x7A0, .length = 1});
+  std::array<std::uint8_t, 256> bytes{};
+  for (int i = 0; i < 3000 && adapter.frames.size() < 20; ++i) {
+    adapter.take(std::span{bytes}.first(line.take(bytes)));
+    const std::string text = adapter.answers + (adapter.open ? foreign : "");
+    adapter.answers.clear();
+    line.send(std::vector<std::uint8_t>(text.begin(), text.end()));
+    ::usleep(10'000);
+  }
+  EXPECT_GE(adapter.frames.size(), 20U) << run.err();
+  EXPECT_EQ(adapter.damaged, 0U);
+  EXPECT_EQ(adapter.rate, '5');
+  EXPECT_EQ(line.rate(), 1'000'000U);
+  EXPECT_EQ(run.stop(SIGINT), 0) << run.err();
+  const host::Json json = host::Json::parse(run.out());
+  EXPECT_GE(json.at("foreign_frames"), 5);
+}
+
+TEST(SlcanLive, ANameThatIsNoneIsExplained) {
+  const test::TemporaryFolder folder;
+  for (const char* name : {"slcan:", "slcan:tty,123456", "slcan:tty,500000,0", "slcan:tty,1,2,3"}) {
+    const test::ToolRun run =
+        run_tool(folder, {"run", "--can", name, "--lidar", "none", "--imu", "none"});
+    EXPECT_EQ(run.exit_code, 2) << name;
+    EXPECT_THAT(run.err, HasSubstr("slcan:TTY[,BITRATE[,BAUD]]")) << name;
+  }
+}
+
+}  // namespace
+}  // namespace picolo

@@ -14,10 +14,12 @@ namespace {
 constexpr std::uint32_t kNmt = 0x000;
 constexpr std::uint32_t kSync = 0x080;
 constexpr std::uint32_t kTpdo1 = 0x180;
-constexpr std::uint32_t kSdoAnswer = 0x580;
 constexpr std::uint32_t kSdoRequest = 0x600;
 constexpr std::uint32_t kHeartbeat = 0x700;
-constexpr std::uint32_t kNoSuchObject = 0x0602'0000;
+
+CanopenObjects objects_of(const CanopenNodeConfig& config) {
+  return {config.node, config.heartbeat_period, config.syncs_per_pdo, config.with_velocity};
+}
 
 /// `counts` in [0, modulus).
 std::uint32_t wrap(std::int64_t counts, std::uint64_t modulus) {
@@ -30,12 +32,13 @@ std::uint32_t wrap(std::int64_t counts, std::uint64_t modulus) {
 
 CanopenNode::CanopenNode(const CanopenNodeConfig& config, EncoderSource& source, CanLink& link,
                          Timestamp power_up)
-    : config_(config), source_(source), link_(link) {
+    : config_(config), objects_(objects_of(config)), source_(source), link_(link) {
   boot(power_up);
 }
 
 void CanopenNode::boot(Timestamp power_up) {
   state_ = NmtState::booting;
+  objects_ = objects_of(config_);
   next_event_ = power_up + config_.boot_time;
   syncs_ = 0;
 }
@@ -45,12 +48,12 @@ void CanopenNode::hear(const CanFrame& frame) {
   if (frame.id == kNmt && frame.length == 2) { network_management(frame); }
   if (frame.id == kSync && state_ == NmtState::operational) {
     ++syncs_;
-    if (syncs_ < config_.syncs_per_pdo) { return; }
+    if (syncs_ < objects_.syncs_per_pdo()) { return; }
     syncs_ = 0;
-    send_pdo(frame.stamp);
+    if (objects_.pdo_is_on()) { send_pdo(frame.stamp); }
   }
   if (frame.id == kSdoRequest + config_.node && state_ != NmtState::stopped) {
-    refuse_service(frame);
+    link_.send(objects_.serve(frame));
   }
 }
 
@@ -64,7 +67,7 @@ void CanopenNode::advance_to(Timestamp now) {
     counts_at_power_up_ = source_.reading_at(now).counts;
     boot(now);
   }
-  for (; next_event_ <= now; next_event_ += config_.heartbeat_period) {
+  for (; next_event_ <= now; next_event_ += objects_.heartbeat_period()) {
     send_heartbeat(next_event_);
     if (state_ == NmtState::booting) { state_ = NmtState::pre_operational; }
   }
@@ -91,13 +94,14 @@ void CanopenNode::send_pdo(Timestamp sync) {
   const std::int64_t turned = frozen_.counts - counts_at_power_up_;
   const std::int64_t counts = config_.initial_counts + (config_.reversed ? -turned : turned);
   const std::int64_t rate = config_.reversed ? -frozen_.counts_per_s : frozen_.counts_per_s;
-  CanFrame pdo{.stamp = sync, .id = kTpdo1 + config_.node, .length = 4};
-  store_u32_le(pdo.data, 0, wrap(counts, config_.modulus));
-  if (config_.with_velocity) {
-    constexpr std::int64_t kLimit = 0x7FFF'FFFF;
-    const auto velocity = static_cast<std::int32_t>(std::clamp(rate, -kLimit, kLimit));
-    store_u32_le(pdo.data, 4, std::bit_cast<std::uint32_t>(velocity));
-    pdo.length = 8;
+  constexpr std::int64_t kLimit = 0x7FFF'FFFF;
+  const auto velocity = static_cast<std::int32_t>(std::clamp(rate, -kLimit, kLimit));
+  CanFrame pdo{.stamp = sync, .id = kTpdo1 + config_.node};
+  for (const std::uint32_t object : objects_.mapped()) {
+    store_u32_le(pdo.data, pdo.length,
+                 object == kMappedPosition ? wrap(counts, config_.modulus)
+                                           : std::bit_cast<std::uint32_t>(velocity));
+    pdo.length = static_cast<std::uint8_t>(pdo.length + 4);
   }
   link_.send(pdo);
 }
@@ -106,14 +110,6 @@ void CanopenNode::send_heartbeat(Timestamp when) {
   CanFrame heartbeat{.stamp = when, .id = kHeartbeat + config_.node, .length = 1};
   heartbeat.data[0] = static_cast<std::uint8_t>(state_);
   link_.send(heartbeat);
-}
-
-void CanopenNode::refuse_service(const CanFrame& request) {
-  CanFrame abort{.stamp = request.stamp, .id = kSdoAnswer + config_.node, .length = 8};
-  abort.data[0] = 0x80;
-  std::copy_n(request.data.begin() + 1, 3, abort.data.begin() + 1);
-  store_u32_le(abort.data, 4, kNoSuchObject);
-  link_.send(abort);
 }
 
 }  // namespace picolo::inline v0::sim

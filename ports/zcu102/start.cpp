@@ -13,12 +13,14 @@ extern Constructor init_array_begin[];
 extern Constructor init_array_end[];
 
 [[noreturn]] void start_in_cpp();
+// An application defines those that it uses.
 [[gnu::weak]] void interrupt_handler();
+[[gnu::weak]] void fault_handler();
 }
 
 // Vector table: 16 entries of 128 bytes; only the interrupt from EL1 with its own stack is
-// expected. It keeps what a C++ function may change: x0 to x18, x29, x30 and the lower vector
-// registers with FPCR's kin.
+// expected. It keeps what a C++ function may change: x0 to x18, x29, x30, FPSR, and all vector
+// registers (of q8 to q15 a function keeps the lower halves only).
 __asm__(R"(
   .section .start, "ax"
   .global start
@@ -37,17 +39,17 @@ start:
 vectors:
   .rept 5
   .balign 128
-  b .
+  b fault_handler
   .endr
   .balign 128
   b keep_and_handle
   .rept 10
   .balign 128
-  b .
+  b fault_handler
   .endr
 
 keep_and_handle:
-  sub sp, sp, #704
+  sub sp, sp, #720
   stp x0, x1, [sp, #0]
   stp x2, x3, [sp, #16]
   stp x4, x5, [sp, #32]
@@ -63,31 +65,39 @@ keep_and_handle:
   stp q2, q3, [sp, #208]
   stp q4, q5, [sp, #240]
   stp q6, q7, [sp, #272]
-  stp q16, q17, [sp, #304]
-  stp q18, q19, [sp, #336]
-  stp q20, q21, [sp, #368]
-  stp q22, q23, [sp, #400]
-  stp q24, q25, [sp, #432]
-  stp q26, q27, [sp, #464]
-  stp q28, q29, [sp, #496]
-  stp q30, q31, [sp, #528]
+  stp q8, q9, [sp, #304]
+  stp q10, q11, [sp, #336]
+  stp q12, q13, [sp, #368]
+  stp q14, q15, [sp, #400]
+  stp q16, q17, [sp, #432]
+  stp q18, q19, [sp, #464]
+  stp q20, q21, [sp, #496]
+  stp q22, q23, [sp, #528]
+  stp q24, q25, [sp, #560]
+  stp q26, q27, [sp, #592]
+  stp q28, q29, [sp, #624]
+  stp q30, q31, [sp, #656]
   mrs x0, fpsr
-  str x0, [sp, #560]
+  str x0, [sp, #688]
   bl interrupt_handler
-  ldr x0, [sp, #560]
+  ldr x0, [sp, #688]
   msr fpsr, x0
   ldp q0, q1, [sp, #176]
   ldp q2, q3, [sp, #208]
   ldp q4, q5, [sp, #240]
   ldp q6, q7, [sp, #272]
-  ldp q16, q17, [sp, #304]
-  ldp q18, q19, [sp, #336]
-  ldp q20, q21, [sp, #368]
-  ldp q22, q23, [sp, #400]
-  ldp q24, q25, [sp, #432]
-  ldp q26, q27, [sp, #464]
-  ldp q28, q29, [sp, #496]
-  ldp q30, q31, [sp, #528]
+  ldp q8, q9, [sp, #304]
+  ldp q10, q11, [sp, #336]
+  ldp q12, q13, [sp, #368]
+  ldp q14, q15, [sp, #400]
+  ldp q16, q17, [sp, #432]
+  ldp q18, q19, [sp, #464]
+  ldp q20, q21, [sp, #496]
+  ldp q22, q23, [sp, #528]
+  ldp q24, q25, [sp, #560]
+  ldp q26, q27, [sp, #592]
+  ldp q28, q29, [sp, #624]
+  ldp q30, q31, [sp, #656]
   ldp x2, x3, [sp, #16]
   ldp x4, x5, [sp, #32]
   ldp x6, x7, [sp, #48]
@@ -99,12 +109,16 @@ keep_and_handle:
   ldp x18, x29, [sp, #144]
   ldr x30, [sp, #160]
   ldp x0, x1, [sp, #0]
-  add sp, sp, #704
+  add sp, sp, #720
   eret
 )");
 
 void interrupt_handler() {
-  while (true) {}
+  while (true) { __asm__ volatile("" ::: "memory"); }
+}
+
+void fault_handler() {
+  while (true) { __asm__ volatile("" ::: "memory"); }
 }
 
 void start_in_cpp() {

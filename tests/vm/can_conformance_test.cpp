@@ -28,8 +28,8 @@ struct CanHarness {
   Result<CanFrame> sent() { return other->receive(20ms); }
   [[nodiscard]] Timestamp now() { return clock.now(); }
   void wait(Duration duration) { static_cast<void>(sleep_until(clock.now() + duration + 20ms)); }
-  void unplug() { shell("/sbin/ip link set " + wiring.port + " down"); }
-  void plug() {
+  void unplug_bus() { shell("/sbin/ip link set " + wiring.port + " down"); }
+  void plug_bus() {
     shell("/sbin/ip link set " + wiring.port + " up");
     other.emplace(wiring.other);  // its socket holds an error of the time without the interface
   }

@@ -53,8 +53,8 @@ struct Wire {
     adapter.frames.pop_front();
     return frame;
   }
-  void unplug() { port.set_connected(false); }
-  void plug() {
+  void unplug_bus() { port.set_connected(false); }
+  void plug_bus() {
     port.set_connected(true);
     adapter = {};
   }

@@ -35,14 +35,14 @@ struct TimeHarness {
 struct CanHarness : TimeHarness {
   std::unique_ptr<test::CanPair> pair;
   SocketCanBus can{linux_clock};
-  CanHarness() { plug(); }
+  CanHarness() { plug_bus(); }
   SocketCanBus& bus() { return can; }
   bool inject(const CanFrame& frame) { return pair->send(frame); }
   Result<CanFrame> sent() { return pair->receive(); }
   // Nothing in a socket pair takes time.
   void wait(Duration duration) { TimeHarness::wait(std::min<Duration>(duration, 1ms)); }
-  void unplug() { pair->close(); }
-  void plug() {
+  void unplug_bus() { pair->close(); }
+  void plug_bus() {
     pair = std::make_unique<test::CanPair>();
     EXPECT_EQ(can.adopt(pair->take_port()), Status::ok);
   }

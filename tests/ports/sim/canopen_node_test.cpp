@@ -235,6 +235,63 @@ TEST(CanopenNode, GivenAServiceRequestThenItIsAbortedAsNoSuchObject) {
   EXPECT_EQ(load_u32_le(frames[0].data, 4), 0x0602'0000U);
 }
 
+TEST(CanopenNode, GivenServiceDataThenTpdoAndHeartbeatChangeUntilTheNextBoot) {
+  Network network;
+  network.live(50ms);
+  struct Exchange {
+    std::array<std::uint8_t, 8> request;
+    std::uint8_t answer;
+    std::uint32_t value;
+  };
+  const Exchange exchanges[] = {
+      {{0x40, 0x17, 0x10, 0}, 0x43, 100},                  // heartbeat time
+      {{0x2B, 0x17, 0x10, 0, 20, 0}, 0x60, 0},             // 20 ms
+      {{0x2B, 0x17, 0x10, 0, 0, 0}, 0x80, 0x0609'0030},    // never
+      {{0x2F, 0x00, 0x1A, 0, 1}, 0x80, 0x0601'0000},       // the TPDO is on
+      {{0x23, 0x00, 0x18, 1, 0x81, 1, 0, 0x80}, 0x60, 0},  // off
+      {{0x23, 0x00, 0x18, 1, 0x99, 1, 0, 0x80}, 0x80, 0x0609'0030},
+      {{0x2F, 0x00, 0x18, 2, 2}, 0x60, 0},                              // every second SYNC
+      {{0x2F, 0x00, 0x18, 2, 255}, 0x80, 0x0609'0030},                  // its own timer
+      {{0x23, 0x00, 0x1A, 1, 0x20, 0, 0x6C, 0x60}, 0x80, 0x0601'0000},  // still mapped
+      {{0x2F, 0x00, 0x1A, 0, 0}, 0x60, 0},
+      {{0x23, 0x00, 0x1A, 1, 0x10, 0, 0x41, 0x60}, 0x80, 0x0604'0041},
+      {{0x23, 0x00, 0x1A, 1, 0x20, 0, 0x6C, 0x60}, 0x60, 0},  // the velocity
+      {{0x2F, 0x00, 0x1A, 0, 3}, 0x80, 0x0604'0041},
+      {{0x2F, 0x00, 0x1A, 0, 1}, 0x60, 0},
+      {{0x40, 0x00, 0x1A, 1}, 0x43, 0x606C'0020},
+      {{0x23, 0x00, 0x18, 1, 0x81, 1, 0, 0}, 0x60, 0},  // on
+      {{0x40, 0x00, 0x18, 2}, 0x43, 2},
+      {{0x60, 0x00, 0x18, 2}, 0x80, 0x0504'0001}};
+  for (const Exchange& exchange : exchanges) {
+    ASSERT_EQ(network.bus.transmit({.id = 0x601, .length = 8, .data = exchange.request}),
+              Status::ok);
+    CanFrame answer{};
+    for (const CanFrame& frame : network.live(2ms)) {
+      if (frame.id == 0x581) { answer = frame; }
+    }
+    EXPECT_EQ(answer.data[0], exchange.answer) << load_u32_le(exchange.request, 0);
+    EXPECT_EQ(load_u32_le(answer.data, 4), exchange.value) << load_u32_le(exchange.request, 0);
+  }
+  network.command(0x01, 1);
+  network.live(100ms);  // the new period counts from the next heartbeat on
+  std::size_t heartbeats = 0;
+  for (const CanFrame& frame : network.live(100ms)) { heartbeats += frame.id == 0x701 ? 1U : 0U; }
+  EXPECT_EQ(heartbeats, 5U);
+  EXPECT_TRUE(network.sync().empty());
+  const auto frames = network.sync();
+  ASSERT_EQ(frames.size(), 1U);
+  EXPECT_EQ(frames[0].length, 4);
+  EXPECT_EQ(position(frames[0]), 100'000) << "the velocity";
+
+  network.command(0x82, 1);
+  network.live(50ms);
+  network.command(0x01, 1);
+  network.live(1ms);
+  const auto again = network.sync();
+  ASSERT_EQ(again.size(), 1U);
+  EXPECT_EQ(again[0].length, 8);
+}
+
 TEST(CanopenNode, GivenASyncProducerAmongTheNodesThenNobodyElseNeedsToSendSync) {
   Network network{WheelPairConfig{.sync_period = 10ms}};
   network.live(50ms);

@@ -42,8 +42,8 @@ struct CanHarness : TimeHarness {
     return true;
   }
   Result<CanFrame> sent() { return sim_bus.take_sent(now()); }
-  void unplug() { sim_bus.set_state(CanState::absent); }
-  void plug() { sim_bus.set_state(CanState::active); }
+  void unplug_bus() { sim_bus.set_state(CanState::absent); }
+  void plug_bus() { sim_bus.set_state(CanState::active); }
 };
 
 struct SerialHarness : TimeHarness {

@@ -42,7 +42,9 @@ const std::vector<Platform>& platforms() {
       {"x86-64 clang -O3", "image-clang-O3", "", ""},
       {"x86-64 clang -O3 AVX2", "image-clang-avx2", "", ""},
       {"aarch64 Linux", "target-aarch64", "", "qemu-aarch64"},
-      {"Cortex-A53 bare metal", "target-a53", "xlnx-zcu102", "qemu-system-aarch64"},
+      // Its two CAN controllers on one bus.
+      {"Cortex-A53 bare metal", "target-a53",
+       "xlnx-zcu102,canbus0=can,canbus1=can -object can-bus,id=can", "qemu-system-aarch64"},
       {"Cortex-M7", "target-m7", "mps2-an500", "qemu-system-arm"},
       {"Cortex-M55", "target-m55", "mps3-an547", "qemu-system-arm"},
       {"Cortex-M4F", "target-m4f", "mps2-an386", "qemu-system-arm"},
@@ -105,13 +107,13 @@ Outcome run(const Platform& platform, const std::string& image_name,
     for (const std::string& word : words) { command += " '" + word + "'"; }
     return run(command);
   }
-  command += platform.program + " -M " + platform.machine +
-             " -display none -monitor none -serial null " + extra +
+  command += platform.program + " -M " + platform.machine + " -display none -monitor none " +
+             extra + (extra.find("-serial") == std::string::npos ? " -serial null" : "") +
              " -semihosting-config enable=on,target=native";
   if (!words.empty()) { command += ",arg=" + image_name; }
   for (const std::string& word : words) { command += ",arg='" + word + "'"; }
-  command += platform.machine == "xlnx-zcu102" ? " -device loader,file=" + file + ",cpu-num=0"
-                                               : " -kernel " + file;
+  command += platform.machine.starts_with("xlnx") ? " -device loader,file=" + file + ",cpu-num=0"
+                                                  : " -kernel " + file;
   return run(command);
 }
 

@@ -9,6 +9,7 @@
 
 #include "picolo/core/time.hpp"
 #include "picolo/hal/can_bus.hpp"
+#include "picolo/sim/canopen_objects.hpp"
 #include "picolo/sim/links.hpp"
 
 namespace picolo::inline v0::sim {
@@ -54,7 +55,8 @@ enum class NmtState : std::uint8_t {
 };
 
 /// Sends nothing but boot-up and heartbeats until it is started by NMT. Samples its shaft at the
-/// end of the SYNC frame. Answers requests for service data with "object does not exist".
+/// end of the SYNC frame. Service data reads and changes heartbeat time and TPDO1 until the next
+/// boot.
 class CanopenNode {
  public:
   CanopenNode(const CanopenNodeConfig& config, EncoderSource& source, CanLink& link,
@@ -71,9 +73,9 @@ class CanopenNode {
   void network_management(const CanFrame& frame);
   void send_pdo(Timestamp sync);
   void send_heartbeat(Timestamp when);
-  void refuse_service(const CanFrame& request);
 
   CanopenNodeConfig config_;
+  CanopenObjects objects_;
   EncoderSource& source_;
   CanLink& link_;
   NmtState state_ = NmtState::booting;

@@ -15,10 +15,10 @@ namespace picolo::inline v0::conformance {
 
 /// `inject`: another node sends a frame. `sent`: the oldest frame of the port that another node has
 /// received and not yet returned, `not_ready` when there is none. `wait`: lets time pass. `now`:
-/// the port's clock. Optional: `unplug()` and `plug()`, for a controller that can go away and come
-/// back; `hold()` and `release()`, for an emulated wire that takes no time: frames stay in the
-/// controller in between; `static constexpr std::uint8_t kRemoteLength`, for an emulated controller
-/// that damages remote frames of other lengths.
+/// the port's clock. Optional: `unplug_bus()` and `plug_bus()`, for a controller that can go away
+/// and come back; `hold()` and `release()`, for an emulated wire that takes no time: frames stay in
+/// the controller in between; `static constexpr std::uint8_t kRemoteLength`, for an emulated
+/// controller that damages remote frames of other lengths.
 template <typename H>
 concept CanBusHarness = requires(H& harness, const CanFrame& frame, Duration duration) {
   { harness.bus() } -> std::convertible_to<CanBus&>;
@@ -200,7 +200,7 @@ void can_bus_survives_a_full_queue(Harness& harness, Checker& checker) {
 
 template <CanBusHarness Harness>
 void can_bus_comes_back(Harness& harness, Checker& checker) {
-  harness.unplug();
+  harness.unplug_bus();
   harness.wait(10ms);
   Status received = harness.bus().receive().status();
   for (int i = 0; i < 100 && received != Status::disconnected; ++i) {
@@ -215,7 +215,7 @@ void can_bus_comes_back(Harness& harness, Checker& checker) {
   checker.expect(harness.bus().status().state == CanState::absent,
                  "CanStatus::state is absent while the controller is gone",
                  "set it where disconnected is found out");
-  harness.plug();
+  harness.plug_bus();
   harness.wait(10ms);
   static_cast<void>(harness.bus().receive());
   can_bus_receives(harness, checker, numbered_frame(3),
@@ -234,8 +234,8 @@ void check_can_bus(Harness& harness, Checker& checker) {
   detail::can_bus_refuses_impossible_frames(harness, checker);
   detail::can_bus_survives_a_full_queue(harness, checker);
   if constexpr (requires {
-                  harness.unplug();
-                  harness.plug();
+                  harness.unplug_bus();
+                  harness.plug_bus();
                 }) {
     detail::can_bus_comes_back(harness, checker);
   }

@@ -14,7 +14,7 @@ namespace picolo::inline v0::conformance {
 
 /// `period`: what the port states. `fired`: whether the watchdog has acted, observed without being
 /// reset (a marker in RAM, an early-warning interrupt); a port that cannot observe it checks on the
-/// bench.
+/// bench. Optional: `start_watchdog()`, for one that would fire during the checks of other devices.
 template <typename H>
 concept WatchdogHarness = requires(H& harness, Duration duration) {
   { harness.watchdog() } -> std::convertible_to<Watchdog&>;
@@ -25,6 +25,7 @@ concept WatchdogHarness = requires(H& harness, Duration duration) {
 
 template <WatchdogHarness Harness>
 void check_watchdog(Harness& harness, Checker& checker) {
+  if constexpr (requires { harness.start_watchdog(); }) { harness.start_watchdog(); }
   const Duration period = harness.period();
   if (!checker.expect(period > Duration{0}, "the port states the watchdog's period",
                       "return the configured time-out")) {

@@ -44,7 +44,7 @@ struct Zcu102Bench {
   SerialPort& port() { return uart0; }
   ByteStore& store() { return *flash; }
   Watchdog& watchdog() { return dog; }
-  void start_watchdog() { dog.start(100ms); }
+  void start_watchdog() { dog.start(400ms); }
   Duration period() { return dog.period(); }
   bool fired() { return dog.fired(); }
   Timestamp now() { return generic_clock.now(); }

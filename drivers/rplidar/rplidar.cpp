@@ -81,8 +81,21 @@ void RplidarProtocol::decode(std::uint8_t byte) {
     nodes_[0] = standard_.node();
     node_count_ = 1;
   } else {
+    const std::uint32_t before = capsules_.counters().frames;
     node_count_ = capsules_.push(byte, nodes_);
+    capsule_ended_ = capsules_.counters().frames != before;
   }
+}
+
+/// A standard node was sent as soon as it was measured. A capsule too, but its nodes are known only
+/// when its successor has come: they were measured before its own first bit.
+Timestamp RplidarProtocol::measured_before(const ByteTime& time) {
+  if (mode_ == RplidarMode::standard) {
+    return time.first_bit(RplidarStandardDecoder::kNodeSize + standard_.bytes_after_node());
+  }
+  const Timestamp previous = capsule_begin_;
+  if (capsule_ended_) { capsule_begin_ = time.first_bit(capsules_.bytes_of_capsule()); }
+  return previous;
 }
 
 std::size_t RplidarProtocol::push(std::uint8_t byte, const ByteTime& time,
@@ -99,18 +112,14 @@ std::size_t RplidarProtocol::push(std::uint8_t byte, const ByteTime& time,
   }
   if (step_ != Step::scanning) { return 0; }
   decode(byte);
+  const Timestamp end = measured_before(time);
   if (node_count_ == 0) { return 0; }
   bytes_since_step_ = 0;
   trouble_ = RplidarTrouble::none;
   deadline_ = time.arrived + config_.silence_timeout;
   samples_ += static_cast<std::uint32_t>(node_count_);
   for (std::size_t i = 0; i < node_count_; ++i) { to_reading(nodes_[i], readings[i]); }
-  // A standard node was sent as soon as it was measured; a capsule's nodes, which come one capsule
-  // late, were all measured before their successor's first bit.
-  const std::size_t back = mode_ == RplidarMode::standard
-                               ? RplidarStandardDecoder::kNodeSize + standard_.bytes_after_node()
-                               : 2 * capsules_.capsule_size();
-  timeline_.stamp(time.first_bit(back) - config_.latency, readings.first(node_count_));
+  timeline_.stamp(end - config_.latency, readings.first(node_count_));
   return node_count_;
 }
 

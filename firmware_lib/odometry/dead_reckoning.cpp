@@ -9,6 +9,13 @@
 #include "picolo/geometry/angle.hpp"
 
 namespace picolo::inline v0 {
+namespace {
+
+// Stamps taken where frames are read come in bunches: a way of a whole period within a microsecond
+// is no speed, and what is extrapolated by it lies metres away.
+constexpr Duration kShortestForSpeed = 1ms;
+
+}  // namespace
 
 DeadReckoning::DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}
 
@@ -77,12 +84,13 @@ void DeadReckoning::add(const WheelIncrement& increment) {
   used_stamp_ = increment.to;
 
   pose_ = {increment.to, pose_.odom_T_base * motion};
+  ++counters_.increments;
+  if (increment.to - increment.from < kShortestForSpeed) { return; }
   const double interval_s = to_seconds_f64(increment.to - increment.from);
   const Tangent2<double> velocity = log_se2(motion);
   twist_ = {static_cast<float>(velocity.x_m / interval_s),
             static_cast<float>(velocity.y_m / interval_s),
             static_cast<float>(velocity.theta_rad / interval_s)};
-  ++counters_.increments;
 }
 
 }  // namespace picolo::inline v0

@@ -92,6 +92,21 @@ Status TermiosSerialPort::set_up(FileDescriptor device) {
   return Status::ok;
 }
 
+Status TermiosSerialPort::set_baud(std::uint32_t baud) {
+  if (baud == 0) { return Status::invalid_argument; }
+  if (device_.is_open()) {
+    const Status status = make_raw(device_.get(), baud);
+    if (!is_ok(status)) {
+      static_cast<void>(make_raw(device_.get(), config_.baud));
+      return status;
+    }
+    static_cast<void>(::ioctl(device_.get(), TCFLSH, TCIFLUSH));
+    rate_changed_ = true;
+  }
+  config_.baud = baud;
+  return Status::ok;
+}
+
 Result<SerialRead> TermiosSerialPort::read(std::span<std::uint8_t> buffer) {
   if (!device_.is_open()) {
     const Timestamp now = clock_.now();
@@ -99,6 +114,7 @@ Result<SerialRead> TermiosSerialPort::read(std::span<std::uint8_t> buffer) {
     next_try_ = now + config_.retry_period;
     if (!is_ok(try_open())) { return Status::disconnected; }
   }
+  if (std::exchange(rate_changed_, false)) { return Status::disconnected; }
   if (buffer.empty()) { return Status::not_ready; }
   const ssize_t count = ::read(device_.get(), buffer.data(), buffer.size());
   if (count > 0) {

@@ -62,9 +62,10 @@ void Ld06Model::measure(std::size_t slot, Duration when, const World& world,
   const Result<VehicleState> state = vehicle.at(when);
   if (!state) { return; }
   const Pose2d world_T_lidar = state->world_T_base * config_.base_T_lidar;
-  const double clockwise_rad = 2.0 * std::numbers::pi * turn_share(config_, next_point_);
+  const double turned_rad = 2.0 * std::numbers::pi * turn_share(config_, next_point_);
+  const double bearing_rad = config_.counter_clockwise ? turned_rad : -turned_rad;
   const double true_m = world.cast({.x_m = world_T_lidar.x_m, .y_m = world_T_lidar.y_m},
-                                   world_T_lidar.theta_rad - clockwise_rad, config_.max_range_m);
+                                   world_T_lidar.theta_rad + bearing_rad, config_.max_range_m);
   // Drawn for every beam, so that what one beam sees does not shift the noise of the others.
   const double noise_m = config_.range_sigma_m * random_.gaussian();
   const bool dropped = random_.uniform_f64() < config_.dropout;

@@ -4,6 +4,13 @@
 
 namespace picolo::inline v0::devices {
 
+std::uint64_t value_of(const Counters& counters, std::string_view name) {
+  for (const Counter& counter : counters) {
+    if (counter.name == name) { return counter.value; }
+  }
+  return 0;
+}
+
 Counters to_list(const SerialCounters& c) {
   return {{"bytes", c.bytes},
           {"frames", c.frames},

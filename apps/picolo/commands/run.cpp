@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "commands.hpp"
+#include "live/baud_search.hpp"
 #include "live/can_line.hpp"
 #include "live/live_loop.hpp"
 #include "live/serial_line.hpp"
@@ -28,6 +29,7 @@ namespace picolo::tool {
 namespace {
 
 constexpr Duration kStatusPeriod = 500ms;
+constexpr Duration kLookPeriod = 100ms;  // at the rates of the lines
 constexpr Duration kStopPatience = 500ms;
 constexpr Duration kStopPause = 5ms;
 
@@ -54,11 +56,38 @@ std::vector<CanFilter> filters_for(const VehicleSettings& settings, CanBus& bus)
   } catch (const std::invalid_argument& error) {
     throw host::UserError{ExitCode::usage, "[wheels]", error.what(), "see picolo run --help"};
   }
-  for (const CanFilter& filter : command_filters(settings.controller.frames_out)) {
-    filters.push_back(filter);
+  const auto own = command_filters(settings.controller.frames_out);
+  const std::string overlap = overlap_of(settings, filters);
+  if (!overlap.empty()) {
+    throw host::UserError{host::ExitCode::usage, "configuration", overlap,
+                          "or set another [can] base_id"};
   }
+  filters.insert(filters.end(), own.begin(), own.end());
   return filters;
 }
+
+/// A serial line whose rate is looked for.
+class SearchedLine {
+ public:
+  SearchedLine(const char* name, TermiosSerialPort& port, const std::vector<std::uint32_t>& bauds)
+      : name_(name), port_(port), search_(bauds) {}
+
+  void update(Timestamp now, const devices::Counters& counters) {
+    const auto next = search_.update(now, port_.is_open(), counters);
+    if (next && !is_ok(port_.set_baud(*next))) {
+      fmt::print(stderr, "picolo: {}: the adapter cannot do {} baud\n", name_, *next);
+    }
+    if (search_.found_another()) {
+      fmt::print(stderr, "picolo: {}: speaks at {} baud; [{}] baud = {} saves the search\n", name_,
+                 port_.baud(), name_, port_.baud());
+    }
+  }
+
+ private:
+  const char* name_;
+  TermiosSerialPort& port_;
+  BaudSearch search_;
+};
 
 /// The live line on a terminal, a line a second elsewhere.
 class StatusLine {
@@ -115,6 +144,12 @@ double process_cpu_s() {
   return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
 }
 
+host::Json to_json(const devices::Counters& counters) {
+  host::Json json = host::Json::object();
+  for (const devices::Counter& counter : counters) { json[counter.name] = counter.value; }
+  return json;
+}
+
 void report(const Options& options, const LiveVehicle& vehicle, const DriveJournal& journal,
             double seconds, double cpu_s) {
   const LiveFigures figures = vehicle.figures();
@@ -143,6 +178,8 @@ void report(const Options& options, const LiveVehicle& vehicle, const DriveJourn
   json["frames_refused"] = figures.frames_refused;
   json["commands_accepted"] = figures.commands.accepted;
   json["matched"] = figures.localiser.matched;
+  json["lidar"] = to_json(vehicle.lidar_counters());
+  json["imu"] = to_json(vehicle.imu_counters());
   fmt::print("{}\n", host::to_text(json));
 }
 
@@ -161,9 +198,9 @@ ExitCode run(const Options& options) {
     fmt::print(stderr, "picolo: {}: is not there yet; waiting for it\n", options.can);
   }
   const devices::DeviceInfo* kind = devices::find_device(devices::Kind::lidar, settings.lidar_name);
-  TermiosSerialPort lidar{linux_clock,
-                          {.baud = settings.lidar_baud, .dtr = kind == nullptr || kind->dtr}};
-  TermiosSerialPort imu{linux_clock, {.baud = settings.imu_baud}};
+  TermiosSerialPort lidar{
+      linux_clock, {.baud = settings.lidar_bauds.front(), .dtr = kind == nullptr || kind->dtr}};
+  TermiosSerialPort imu{linux_clock, {.baud = settings.imu_bauds.front()}};
   static_cast<void>(open_line(lidar, options.lidar, "lidar"));
   if (!options.imu.empty()) { static_cast<void>(open_line(imu, options.imu, "imu")); }
   FileByteStore store{{.geometry = kMapStoreGeometry}};
@@ -201,6 +238,9 @@ ExitCode run(const Options& options) {
   const Timestamp start = linux_clock.now();
   const double cpu_before_s = process_cpu_s();
   loop.start(start);
+  SearchedLine lidar_rate{"lidar", lidar, settings.lidar_bauds};
+  SearchedLine imu_rate{"imu", imu, settings.imu_bauds};
+  Timestamp next_look = start;
   Timestamp next_status = start;
   const auto end = options.seconds > 0.0 ? start + from_seconds(options.seconds) : Timestamp::max();
   Timestamp now = start;
@@ -211,6 +251,11 @@ ExitCode run(const Options& options) {
     if (loop.cycle(now)) {
       status.clear();
       tell_change(loop.journal().changes().back());
+    }
+    if (now >= next_look) {
+      next_look = now + kLookPeriod;
+      lidar_rate.update(now, vehicle->lidar_counters());
+      imu_rate.update(now, vehicle->imu_counters());
     }
     if (now < next_status) { continue; }
     next_status = now + kStatusPeriod;
@@ -288,13 +333,12 @@ void add_run(CLI::App& app, Action& action) {
       "\n"
       "Settings: [vehicle] profile left_radius_m right_radius_m track_m counts_per_revolution\n"
       "max_wheel_speed_mps; [wheels] driver left_id right_id left_inverted right_inverted\n"
-      "produce_sync pole_pairs counts_per_turn dbc_file left_signal right_signal; [lidar] driver "
-      "baud\n"
-      "x_m y_m yaw_rad min_range_m max_range_m mode samples_per_second motor_pwm motor_rpm; [imu]\n"
-      "driver baud present gyro_sign rate_full_scale_degps acceleration_full_scale_g; [can] "
-      "base_id\n"
-      "frames_out; [cycle] minor_frame_ms major_frame_ms tolerated_overruns;\n"
-      "[localiser] as for replay. Without a file: the nominal sizes of the simulated vehicle.\n");
+      "produce_sync set_up_nodes pole_pairs counts_per_turn dbc_file left_signal right_signal\n"
+      "speed_ticks_per_unit; [lidar] driver baud x_m y_m yaw_rad min_range_m max_range_m mode\n"
+      "samples_per_second motor_pwm motor_rpm; [imu] driver baud present gyro_sign\n"
+      "rate_full_scale_degps acceleration_full_scale_g; [can] base_id frames_out; [cycle]\n"
+      "minor_frame_ms major_frame_ms tolerated_overruns; [localiser] as for replay. Without a baud\n"
+      "every rate of the driver is tried. Without a file: the nominal sizes of the simulated vehicle.\n");
   command->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <memory>
 #include <optional>
+#include <stdexcept>
 #include <vector>
 
 #include "commands.hpp"
@@ -13,6 +14,8 @@
 #include "live/pty_line.hpp"
 #include "live/stop_signal.hpp"
 #include "live/traffic_log.hpp"
+#include "live/vehicle_settings.hpp"
+#include "picolo/devices/dialects.hpp"
 #include "picolo/host/trajectory.hpp"
 #include "picolo/linux/linux_clock.hpp"
 #include "picolo/sim/simulation.hpp"
@@ -28,8 +31,11 @@ struct Options {
   std::string lidar_pty;
   std::string imu_pty;
   std::string scene = "office";
+  std::string config;
   std::string truth;
   std::string record;
+  std::uint32_t lidar_baud = 0;
+  std::uint32_t imu_baud = 0;
   std::vector<std::string> unplug;
   int seed = 1;
   double seconds = 0.0;
@@ -70,13 +76,22 @@ sim::SceneName scene_of(const std::string& name) {
   return sim::SceneName::corridor;
 }
 
-/// Between the simulated wires and those of this machine.
+/// Between the simulated wires, in the words of the devices that the configuration names, and those
+/// of this machine.
 class Bridge {
  public:
-  Bridge(const Options& options, CanLine& can, sim::Simulation& simulation)
-      : can_(can), simulation_(simulation) {
-    if (!options.lidar_pty.empty()) { lidar_.emplace(options.lidar_pty); }
-    if (!options.imu_pty.empty()) { imu_.emplace(options.imu_pty); }
+  Bridge(const Options& options, const VehicleSettings& settings, CanLine& can,
+         sim::Simulation& simulation)
+      : can_(can),
+        wheels_(devices::make_wheel_dialect(settings.wheels_name, simulation.can(),
+                                            simulation.clock(), wheel_dialect(settings))),
+        lidar_port_(devices::make_lidar_dialect(settings.lidar_name, simulation.lidar_port(),
+                                                settings.lidar.mode)),
+        imu_port_(devices::make_imu_dialect(settings.imu_name, simulation.imu_port())) {
+    if (!options.lidar_pty.empty()) {
+      lidar_.emplace(options.lidar_pty).set_baud(options.lidar_baud);
+    }
+    if (!options.imu_pty.empty()) { imu_.emplace(options.imu_pty).set_baud(options.imu_baud); }
     if (!options.record.empty()) { log_.emplace(options.record); }
   }
 
@@ -84,18 +99,18 @@ class Bridge {
   void listen(Timestamp now) {
     for (Result<CanFrame> frame = can_.receive(); frame; frame = can_.receive()) {
       if (log_) { log_->can(*frame); }
-      static_cast<void>(simulation_.can().transmit(*frame));
+      static_cast<void>(wheels_->transmit(*frame));
     }
-    take(lidar_, simulation_.lidar_port());
-    take(imu_, simulation_.imu_port());
+    take(lidar_, *lidar_port_);
+    take(imu_, *imu_port_);
     now_ = now;
   }
   void speak() {
-    for (auto frame = simulation_.can().receive(); frame; frame = simulation_.can().receive()) {
+    for (auto frame = wheels_->receive(); frame; frame = wheels_->receive()) {
       if (is_ok(can_.transmit(*frame)) && log_) { log_->can(*frame); }
     }
-    send(simulation_.lidar_port(), lidar_, "lidar");
-    send(simulation_.imu_port(), imu_, "imu");
+    send(*lidar_port_, lidar_, "lidar");
+    send(*imu_port_, imu_, "imu");
   }
   void plug(bool lidar, bool in) {
     std::optional<PtyLine>& line = lidar ? lidar_ : imu_;
@@ -105,11 +120,15 @@ class Bridge {
   }
 
  private:
+  static devices::WheelDialect wheel_dialect(const VehicleSettings& settings) {
+    return {.left_id = settings.wheels.left_id,
+            .right_id = settings.wheels.right_id,
+            .pole_pairs = settings.wheels.pole_pairs};
+  }
   static void take(std::optional<PtyLine>& line, SerialPort& port) {
     if (!line) { return; }
-    std::array<std::uint8_t, 256> bytes{};
-    const std::size_t count = line->take(bytes);
-    if (count > 0) { static_cast<void>(port.write(std::span{bytes}.first(count))); }
+    const std::vector<std::uint8_t> bytes = line->take();
+    if (!bytes.empty()) { static_cast<void>(port.write(bytes)); }
   }
   void send(SerialPort& port, std::optional<PtyLine>& line, const char* name) {
     std::array<std::uint8_t, 512> bytes{};
@@ -121,12 +140,24 @@ class Bridge {
   }
 
   CanLine& can_;
-  sim::Simulation& simulation_;
+  devices::CanBusPointer wheels_;
+  devices::SerialPortPointer lidar_port_;
+  devices::SerialPortPointer imu_port_;
   std::optional<PtyLine> lidar_;
   std::optional<PtyLine> imu_;
   std::optional<TrafficLog> log_;
   Timestamp now_{};
 };
+
+std::unique_ptr<Bridge> make_bridge(const Options& options, const VehicleSettings& settings,
+                                    CanLine& can, sim::Simulation& simulation) {
+  try {
+    return std::make_unique<Bridge>(options, settings, can, simulation);
+  } catch (const std::invalid_argument& error) {
+    throw host::UserError{host::ExitCode::usage, options.config, error.what(),
+                          "name other drivers in the configuration"};
+  }
+}
 
 /// Sleeps until the controller's first frame.
 void wait_for_controller(CanLine& can, LinuxClock& clock, const StopSignal& stop) {
@@ -138,18 +169,20 @@ void wait_for_controller(CanLine& can, LinuxClock& clock, const StopSignal& stop
 ExitCode simulate(const Options& options) {
   std::vector<Absence> absences;
   for (const std::string& text : options.unplug) { absences.push_back(parse_absence(text)); }
+  const VehicleSettings settings = read_vehicle(options.config);
   const StopSignal stop;
   LinuxClock clock;
   CanLine can{clock, options.can, CanLine::Role::first};
   static_cast<void>(can.open());
   sim::SimulationConfig config{.seed = static_cast<std::uint64_t>(options.seed)};
   config.scene = sim::make_scene(scene_of(options.scene));
+  config.lidar.counter_clockwise = devices::turns_counter_clockwise(settings.lidar_name);
   config.drive.stand_at_start = from_seconds(options.stand);
   if (options.wait) { wait_for_controller(can, clock, stop); }
   const Timestamp start = clock.now();
   config.start = start;
   const auto simulation = std::make_unique<sim::Simulation>(config);
-  Bridge bridge{options, can, *simulation};
+  const auto bridge = make_bridge(options, settings, can, *simulation);
   host::Trajectory truth;
   Timestamp next_truth = start;
   const auto end = options.seconds > 0.0 ? start + from_seconds(options.seconds) : Timestamp::max();
@@ -157,11 +190,11 @@ ExitCode simulate(const Options& options) {
   for (Timestamp now = start; !stop.came() && now < end; now = clock.now()) {
     for (const Absence& absence : absences) {
       const Duration elapsed = now - start;
-      bridge.plug(absence.lidar, elapsed < absence.from || elapsed >= absence.to);
+      bridge->plug(absence.lidar, elapsed < absence.from || elapsed >= absence.to);
     }
-    bridge.listen(now);
+    bridge->listen(now);
     simulation->advance_to(now);
-    bridge.speak();
+    bridge->speak();
     if (now >= next_truth) {
       next_truth = now + kTruthPeriod;
       truth.push_back({to_seconds_f64(now.time_since_epoch()),
@@ -187,6 +220,13 @@ void add_simulate(CLI::App& app, Action& action) {
       ->type_name("PATH");
   command->add_option("--imu-pty", options->imu_pty, "Make the IMU's serial line here")
       ->type_name("PATH");
+  command->add_option("--config", options->config, "TOML file of picolo run: which devices it has")
+      ->type_name("FILE");
+  command
+      ->add_option("--lidar-baud", options->lidar_baud,
+                   "The lidar speaks at this rate; a line opened at another is garbled")
+      ->type_name("BAUD");
+  command->add_option("--imu-baud", options->imu_baud, "The same for the IMU")->type_name("BAUD");
   command->add_option("--scene", options->scene, "Where it drives")
       ->check(CLI::IsMember({"office", "room", "hall", "corridor"}))
       ->capture_default_str();
@@ -207,9 +247,16 @@ void add_simulate(CLI::App& app, Action& action) {
   command->add_option("--record", options->record, "Write a candump log and the serial bytes there")
       ->type_name("DIR");
   command->footer(
-      "The lidar is an LD06 (230400 baud), the IMU a WitMotion (115200), the wheels two CiA 402\n"
-      "drives, nodes 1 and 2. True poses are in the controller's map frame, if that started while\n"
-      "the vehicle stood; stamps are those of the monotonic clock that both processes share.\n"
+      "Without --config the lidar is an LD06 (230400 baud), the IMU a WitMotion (115200), the "
+      "wheels\n"
+      "two CiA 402 drives, nodes 1 and 2. It can have every other driver of picolo run too "
+      "(rplidar in\n"
+      "standard and dense mode; ydlidar as a T-mini): give both the same file. Encoders count 4096 "
+      "a\n"
+      "turn; vesc: 6 * pole_pairs; dbc: the two words of 0x205 that wrap at 16384 (comma body).\n"
+      "True poses are in the controller's map frame, if that started while the vehicle stood; "
+      "stamps\n"
+      "are those of the monotonic clock that both processes share.\n"
       "\n"
       "Examples:\n"
       "  picolo simulate --can vcan0 --lidar-pty /tmp/lidar --imu-pty /tmp/imu --wait\n"
@@ -217,7 +264,9 @@ void add_simulate(CLI::App& app, Action& action) {
       "      in another terminal; sudo ip link add vcan0 type vcan && sudo ip link set vcan0 up\n"
       "  picolo simulate --can socket:/tmp/bus --lidar-pty /tmp/lidar --imu-pty /tmp/imu\n"
       "      for a kernel without CAN; the same --can for picolo run\n"
-      "  picolo simulate ... --unplug lidar:10:3 --truth truth.tum --seconds 30\n");
+      "  picolo simulate ... --unplug lidar:10:3 --truth truth.tum --seconds 30\n"
+      "  picolo simulate ... --config vehicle.toml --lidar-baud 256000\n"
+      "      its rplidar is found by picolo run --config vehicle.toml, whatever its rate\n");
   command->callback([&action, options] { action = [options] { return simulate(*options); }; });
 }
 

@@ -40,14 +40,22 @@ struct CanFacts {
   std::uint32_t protocol_errors = 0;
   std::uint32_t overflows = 0;
   std::uint32_t foreign_talkers = 0;  ///< frames with the controller's own identifiers
+  std::string overlap;                ///< identifiers that two users want, in words
+  std::string wheels;         ///< driver that listened along; empty for CANopen, whose nodes answer
+  std::uint32_t samples = 0;  ///< complete ones that it made
+  std::string missing_frames;  ///< identifiers that it waits for and never heard
   std::vector<int> wanted_nodes;
   std::map<int, int> heard_nodes;  ///< node to its last NMT state; -1: it only answered or sent
 };
 [[nodiscard]] Findings judge(const CanFacts& facts);
 
+/// So many packets of a device are no accident.
+inline constexpr std::uint32_t kFewPackets = 3;
+
 /// One try to read a device at a rate.
 struct SerialTrial {
   std::uint32_t baud = 0;
+  double seconds = 0.5;
   bool possible = true;  ///< the adapter can do it
   std::uint32_t bytes = 0;
   std::uint32_t packets = 0;
@@ -61,7 +69,8 @@ struct SerialFacts {
   bool may_open = true;
   bool is_busy = false;
   bool is_terminal = true;
-  SerialTrial trial;  ///< at the configured rate
+  std::vector<std::uint32_t> bauds;  ///< that picolo run would try
+  SerialTrial trial;                 ///< at the first of them
   std::vector<SerialTrial> others;
   std::optional<int> latency_ms;  ///< timer of a USB adapter
   std::string other_readers;      ///< programs that have the line open as well

@@ -36,6 +36,24 @@ void judge_nodes(const CanFacts& facts, Findings& findings) {
   }
 }
 
+/// Wheels that cannot be asked: what their driver made of the frames that came by itself.
+void judge_wheels(const CanFacts& facts, Findings& findings) {
+  if (facts.wheels.empty()) { return; }
+  if (facts.samples > 0) {
+    findings.push_back({Level::good,
+                        fmt::format("{} samples of the wheels ({})", facts.samples, facts.wheels),
+                        ""});
+    return;
+  }
+  const std::string what = facts.missing_frames.empty()
+                               ? "their frames come, but make no sample"
+                               : "no frame with the identifiers " + facts.missing_frames + " came";
+  findings.push_back(
+      {Level::fault, fmt::format("wheels ({}): {}", facts.wheels, what),
+       "check left_id and right_id in [wheels], and that the drives send by themselves (ODrive: "
+       "encoder_msg_rate_ms; VESC: CAN status messages 1 to 5; DBC: the message's cycle)"});
+}
+
 /// True when it makes no sense to look further.
 bool judge_interface(const CanFacts& facts, Findings& findings) {
   if (!facts.kernel_has_can) {
@@ -124,12 +142,16 @@ bool any_fault(const Findings& findings) {
 
 Findings judge(const CanFacts& facts) {
   Findings findings;
+  if (!facts.overlap.empty()) {
+    findings.push_back({Level::fault, facts.overlap, "or set another [can] base_id"});
+  }
   if (judge_interface(facts, findings)) { return findings; }
   judge_bus(facts, findings);
   if (any_fault(findings)) { return findings; }  // what follows is only their consequence
   findings.push_back(
       {Level::good, fmt::format("the bus works, {} frames in a second", facts.frames), ""});
   judge_nodes(facts, findings);
+  judge_wheels(facts, findings);
   return findings;
 }
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "doctor/findings.hpp"
 
 namespace picolo::tool {
 namespace {
 
 using Level = Finding::Level;
-
-constexpr std::uint32_t kFewPackets = 3;
 
 /// True when it makes no sense to look further.
 bool judge_access(const SerialFacts& facts, Findings& findings) {
@@ -53,13 +53,22 @@ void judge_bytes(const SerialFacts& facts, Findings& findings) {
                               ", a bad cable or ground, or a baud rate a few percent off"});
       return;
     }
-    findings.push_back({Level::good,
-                        fmt::format("{} sound packets of the {} in half a second, {} damaged",
-                                    trial.packets, facts.device, trial.bad_checksums),
-                        ""});
+    findings.push_back(
+        {Level::good,
+         fmt::format("{} sound packets of the {} in {:.1f} s, {} damaged", trial.packets,
+                     facts.device, trial.seconds, trial.bad_checksums),
+         ""});
     return;
   }
   if (const SerialTrial* other = best_other(facts)) {
+    if (std::find(facts.bauds.begin(), facts.bauds.end(), other->baud) != facts.bauds.end()) {
+      findings.push_back(
+          {Level::good,
+           fmt::format("{} sound packets of the {} at {} baud, which picolo run finds by itself",
+                       other->packets, facts.device, other->baud),
+           ""});
+      return;
+    }
     findings.push_back(
         {Level::fault,
          fmt::format("wrong baud rate: nothing sound at {}, but at {}", trial.baud, other->baud),

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
 #include <linux/can.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
@@ -15,11 +16,16 @@
 #include <cstring>
 #include <filesystem>
 #include <fstream>
+#include <memory>
+#include <stdexcept>
+#include <vector>
 
 #include "doctor/link_details.hpp"
 #include "doctor/probe.hpp"
 #include "picolo/drivers/canopen/cob_id.hpp"
+#include "picolo/host/error.hpp"
 #include "picolo/linux/file_descriptor.hpp"
+#include "picolo/linux/linux_clock.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -111,7 +117,65 @@ void note_frame(const can_frame& frame, std::uint32_t own_id, CanFacts& facts) {
   }
 }
 
-void listen(int fd, std::uint32_t own_id, CanFacts& facts) {
+CanFrame to_frame(const can_frame& raw) {
+  CanFrame frame{.id = raw.can_id & CAN_EFF_MASK, .length = raw.can_dlc};
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  std::copy_n(raw.data, frame.data.size(), frame.data.begin());
+  frame.stamp = LinuxClock{}.now();
+  return frame;
+}
+
+/// The driver of the wheels, listening along: it and the controller cannot disagree.
+class WheelsListener {
+ public:
+  explicit WheelsListener(const VehicleSettings& settings)
+      : wheels_(devices::make_wheels(settings.wheels_name, bus_, settings.wheels)),
+        filters_(wheels_->filters()),
+        heard_(filters_.size()) {}
+
+  void note(const can_frame& raw) {
+    const CanFrame frame = to_frame(raw);
+    for (std::size_t i = 0; i < filters_.size(); ++i) {
+      heard_[i] = heard_[i] || filters_[i].accepts(frame.id, frame.extended);
+    }
+    static_cast<void>(wheels_->consume(frame));
+    samples_ += wheels_->take() ? 1U : 0U;
+  }
+  void tell(CanFacts& facts) const {
+    facts.samples = samples_;
+    for (std::size_t i = 0; i < filters_.size(); ++i) {
+      if (heard_[i]) { continue; }
+      facts.missing_frames += fmt::format("{}0x{:0{}X}", facts.missing_frames.empty() ? "" : ", ",
+                                          filters_[i].id, filters_[i].extended ? 8 : 3);
+    }
+  }
+  [[nodiscard]] const std::vector<CanFilter>& filters() const { return filters_; }
+
+ private:
+  /// It only listens.
+  class SilentBus final : public CanBus {
+   public:
+    Result<CanFrame> receive() override { return Status::not_ready; }
+    Status transmit(const CanFrame& /*frame*/) override { return Status::ok; }
+    [[nodiscard]] CanStatus status() const override { return {}; }
+  };
+  SilentBus bus_;
+  std::unique_ptr<devices::Wheels> wheels_;
+  std::vector<CanFilter> filters_;
+  std::vector<bool> heard_;
+  std::uint32_t samples_ = 0;
+};
+
+WheelsListener make_listener(const VehicleSettings& settings) {
+  try {
+    return WheelsListener{settings};
+  } catch (const std::invalid_argument& error) {
+    throw host::UserError{host::ExitCode::usage, "[wheels]", error.what(), "see picolo run --help"};
+  }
+}
+
+void listen(int fd, std::uint32_t own_id, WheelsListener& wheels, CanFacts& facts) {
   using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + kListen;
   for (auto now = Clock::now(); now < end; now = Clock::now()) {
@@ -129,6 +193,7 @@ void listen(int fd, std::uint32_t own_id, CanFacts& facts) {
       note_error(frame, facts);
     } else {
       note_frame(frame, own_id, facts);
+      wheels.note(frame);
     }
   }
 }
@@ -138,6 +203,9 @@ void listen(int fd, std::uint32_t own_id, CanFacts& facts) {
 CanFacts probe_can(const std::string& name, const VehicleSettings& settings) {
   CanFacts facts;
   facts.name = name;
+  WheelsListener wheels = make_listener(settings);
+  facts.overlap = overlap_of(settings, wheels.filters());
+  if (settings.wheels_name != "canopen") { facts.wheels = settings.wheels_name; }
   for (const std::uint32_t id : {settings.wheels.left_id, settings.wheels.right_id}) {
     const auto node = static_cast<int>(id);
     if (settings.wheels_name != "canopen") { break; }  // others cannot be asked alike
@@ -153,7 +221,8 @@ CanFacts probe_can(const std::string& name, const VehicleSettings& settings) {
     return facts;
   }
   ask_nodes(socket.get(), facts);
-  listen(socket.get(), settings.controller.frames_out.base_id, facts);
+  listen(socket.get(), settings.controller.frames_out.base_id, wheels, facts);
+  wheels.tell(facts);
   return facts;
 }
 

@@ -19,28 +19,30 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr Duration kLook = 500ms;
+constexpr Duration kLongLook = 2s;  // a device that answers has to be started first
 constexpr Duration kPause = 5ms;
-std::uint32_t value_of(const devices::Counters& counters, const std::string& name) {
-  for (const devices::Counter& counter : counters) {
-    if (counter.name == name) { return static_cast<std::uint32_t>(counter.value); }
-  }
-  return 0;
+
+std::uint32_t value_of(const devices::Counters& counters, const char* name) {
+  return static_cast<std::uint32_t>(devices::value_of(counters, name));
 }
 
 /// The driver itself listens, so that doctor and controller cannot disagree.
 template <typename Device, typename Sample, std::size_t kRoom>
-void listen(Device& device, LinuxClock& clock, SerialTrial& trial) {
+void listen(Device& device, bool on_request, LinuxClock& clock, SerialTrial& trial) {
   std::array<Sample, kRoom> samples{};
-  const Timestamp end = clock.now() + kLook;
-  while (clock.now() < end) {
-    static_cast<void>(device.service(clock.now()));
+  const Timestamp start = clock.now();
+  for (Timestamp now = start; now < start + kLongLook; now = clock.now()) {
+    static_cast<void>(device.service(now));
     const auto count = device.poll(4096, samples);
-    if (!count) { static_cast<void>(sleep_until(clock.now() + kPause)); }
+    if (!count) { static_cast<void>(sleep_until(now + kPause)); }
+    trial.seconds = to_seconds_f64(now - start);
+    const devices::Counters counters = device.counters();
+    trial.bytes = value_of(counters, "bytes");
+    trial.packets = value_of(counters, "frames");
+    trial.bad_checksums = value_of(counters, "bad_checksums");
+    const bool decided = !on_request || trial.bytes == 0 || trial.packets >= kFewPackets;
+    if (now >= start + kLook && decided) { break; }
   }
-  const devices::Counters counters = device.counters();
-  trial.bytes = value_of(counters, "bytes");
-  trial.packets = value_of(counters, "frames");
-  trial.bad_checksums = value_of(counters, "bad_checksums");
   for (int i = 0; i < 20 && device.stop() == Status::not_ready; ++i) {
     static_cast<void>(sleep_until(clock.now() + kPause));
   }
@@ -57,13 +59,20 @@ std::vector<std::uint32_t> rates_of(const devices::DeviceInfo& device) {
 
 using Listen = std::function<void(TermiosSerialPort&, LinuxClock&, SerialTrial&)>;
 
-SerialTrial try_rate(const std::string& path, std::uint32_t baud, const Listen& listen_to,
+struct Line {
+  std::string path;
+  std::string device;  ///< for people
+  const devices::DeviceInfo& info;
+  const std::vector<std::uint32_t>& bauds;  ///< that picolo run tries
+};
+
+SerialTrial try_rate(const Line& line, std::uint32_t baud, const Listen& listen_to,
                      SerialFacts& facts) {
   LinuxClock clock;
   SerialTrial trial{.baud = baud};
-  TermiosSerialPort port{clock, {.baud = baud}};
+  TermiosSerialPort port{clock, {.baud = baud, .dtr = line.info.dtr}};
   errno = 0;
-  const Status status = port.open(path.c_str());
+  const Status status = port.open(line.path.c_str());
   const int error = errno;
   if (status == Status::ok) {
     listen_to(port, clock, trial);
@@ -100,27 +109,28 @@ std::string readers_of(const std::string& path) {
   return names.empty() ? names : names + ")";
 }
 
-SerialFacts probe(const std::string& path, const std::string& device, std::uint32_t baud,
-                  const std::vector<std::uint32_t>& rates, const Listen& listen_to) {
+SerialFacts probe(const Line& line, const Listen& listen_to) {
   SerialFacts facts;
-  facts.path = path;
-  facts.device = device;
+  facts.path = line.path;
+  facts.device = line.device;
+  facts.bauds = line.bauds;
   std::error_code error;
-  facts.exists = fs::exists(path, error);
+  facts.exists = fs::exists(line.path, error);
   if (!facts.exists) { return facts; }
-  facts.is_terminal = fs::is_character_file(path, error);
+  facts.is_terminal = fs::is_character_file(line.path, error);
   if (!facts.is_terminal) { return facts; }
-  facts.other_readers = readers_of(path);
-  facts.trial = try_rate(path, baud, listen_to, facts);
-  const std::string name = fs::canonical(path, error).filename().string();
+  facts.other_readers = readers_of(line.path);
+  const std::uint32_t first = line.bauds.front();
+  facts.trial = try_rate(line, first, listen_to, facts);
+  const std::string name = fs::canonical(line.path, error).filename().string();
   int latency_ms = 0;
   if (std::ifstream{"/sys/bus/usb-serial/devices/" + name + "/latency_timer"} >> latency_ms) {
     facts.latency_ms = latency_ms;
   }
   if (!facts.trial.possible || facts.trial.packets > 0) { return facts; }
-  for (const std::uint32_t rate : rates) {
-    if (rate == baud) { continue; }
-    facts.others.push_back(try_rate(path, rate, listen_to, facts));
+  for (const std::uint32_t rate : rates_of(line.info)) {
+    if (rate == first) { continue; }
+    facts.others.push_back(try_rate(line, rate, listen_to, facts));
     if (facts.others.back().packets > facts.others.back().bad_checksums) { break; }
   }
   return facts;
@@ -129,20 +139,20 @@ SerialFacts probe(const std::string& path, const std::string& device, std::uint3
 }  // namespace
 
 SerialFacts probe_lidar(const std::string& path, const VehicleSettings& settings) {
-  const auto* info = devices::find_device(devices::Kind::lidar, settings.lidar_name);
-  return probe(path, "lidar", settings.lidar_baud, rates_of(*info),
+  const auto& info = *devices::find_device(devices::Kind::lidar, settings.lidar_name);
+  return probe({path, "lidar", info, settings.lidar_bauds},
                [&](TermiosSerialPort& port, LinuxClock& clock, SerialTrial& trial) {
                  const auto device = devices::make_lidar(settings.lidar_name, port, settings.lidar);
-                 listen<devices::Lidar, RangeReading, 48>(*device, clock, trial);
+                 listen<devices::Lidar, RangeReading, 48>(*device, info.on_request, clock, trial);
                });
 }
 
 SerialFacts probe_imu(const std::string& path, const VehicleSettings& settings) {
-  const auto* info = devices::find_device(devices::Kind::imu, settings.imu_name);
-  return probe(path, "IMU", settings.imu_baud, rates_of(*info),
+  const auto& info = *devices::find_device(devices::Kind::imu, settings.imu_name);
+  return probe({path, "IMU", info, settings.imu_bauds},
                [&](TermiosSerialPort& port, LinuxClock& clock, SerialTrial& trial) {
                  const auto device = devices::make_imu(settings.imu_name, port, settings.imu);
-                 listen<devices::Imu, ImuSample, 8>(*device, clock, trial);
+                 listen<devices::Imu, ImuSample, 8>(*device, info.on_request, clock, trial);
                });
 }
 

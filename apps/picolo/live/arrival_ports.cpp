@@ -70,6 +70,7 @@ void read_stamps(const fs::path& path, SerialCapture& capture) {
   std::size_t number = 0;
   for (std::string text; std::getline(file, text);) {
     ++number;
+    if (const auto baud = baud_of(text)) { capture.baud = baud; }
     if (text.empty() || text.front() == '#') { continue; }
     std::istringstream words{text};
     std::int64_t stamp_us = 0;

@@ -27,6 +27,7 @@ struct SerialChunkRecord {
 struct SerialCapture {
   std::vector<std::uint8_t> bytes;
   std::vector<SerialChunkRecord> chunks;
+  std::optional<std::uint32_t> baud;  ///< that the stamps name, the last where there are several
 };
 
 /// All of a capture folder, on one clock.
@@ -60,8 +61,11 @@ class ArrivalCanBus final : public CanBus {
 
 class ArrivalSerialPort final : public SerialPort {
  public:
+  /// `baud` is used where the capture names none.
   ArrivalSerialPort(Clock& clock, const SerialCapture* capture, std::uint32_t baud)
-      : clock_(clock), capture_(capture), baud_(baud) {}
+      : clock_(clock),
+        capture_(capture),
+        baud_(capture != nullptr ? capture->baud.value_or(baud) : baud) {}
   Result<SerialRead> read(std::span<std::uint8_t> buffer) override;
   Result<std::size_t> write(std::span<const std::uint8_t> bytes) override { return bytes.size(); }
   [[nodiscard]] std::uint32_t baud() const override { return baud_; }

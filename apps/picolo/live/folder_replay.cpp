@@ -104,8 +104,8 @@ void replay_cycles(const RecordFolder& folder, const VehicleSettings& settings,
   ProcessorTimeCounter counter;
   NoWatchdog watchdog;
   ReplayCanBus can{folder.can()};
-  ReplaySerialPort lidar{folder, "lidar", settings.lidar_baud};
-  ReplaySerialPort imu{folder, "imu", settings.imu_baud};
+  ReplaySerialPort lidar{folder, "lidar", settings.lidar_bauds.front()};
+  ReplaySerialPort imu{folder, "imu", settings.imu_bauds.front()};
   StoreCopy store{folder};
   const auto vehicle = make_vehicle(
       settings,
@@ -138,8 +138,8 @@ void replay_arrivals(const RecordFolder& folder, VehicleSettings settings,
   ProcessorTimeCounter counter;
   NoWatchdog watchdog;
   ArrivalCanBus can{clock, captures.can};
-  ArrivalSerialPort lidar{clock, &captures.lidar, settings.lidar_baud};
-  ArrivalSerialPort imu{clock, captures.imu ? &*captures.imu : nullptr, settings.imu_baud};
+  ArrivalSerialPort lidar{clock, &captures.lidar, settings.lidar_bauds.front()};
+  ArrivalSerialPort imu{clock, captures.imu ? &*captures.imu : nullptr, settings.imu_bauds.front()};
   const auto vehicle = make_vehicle(
       settings, {.board = {can, clock, counter, watchdog}, .lidar = lidar, .imu = imu});
   LiveLoop loop{*vehicle, clock, nullptr};

@@ -36,6 +36,8 @@ class VehicleOf final : public LiveVehicle {
     return imu == Status::not_ready ? imu : lidar;
   }
   [[nodiscard]] std::string trouble() const override { return lidar_->trouble(); }
+  [[nodiscard]] devices::Counters lidar_counters() const override { return lidar_->counters(); }
+  [[nodiscard]] devices::Counters imu_counters() const override { return imu_->counters(); }
   [[nodiscard]] Timestamp next_frame() const override { return controller_.next_frame(); }
   [[nodiscard]] const PoseEstimate& estimate() const override { return controller_.estimate(); }
   [[nodiscard]] LiveFigures figures() const override {

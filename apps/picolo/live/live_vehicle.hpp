@@ -54,6 +54,8 @@ class LiveVehicle {
   virtual Status stop() = 0;
   /// Why a device gives nothing, with the cure; empty when unknown.
   [[nodiscard]] virtual std::string trouble() const = 0;
+  [[nodiscard]] virtual devices::Counters lidar_counters() const = 0;
+  [[nodiscard]] virtual devices::Counters imu_counters() const = 0;
   [[nodiscard]] virtual Timestamp next_frame() const = 0;
   [[nodiscard]] virtual const PoseEstimate& estimate() const = 0;
   [[nodiscard]] virtual LiveFigures figures() const = 0;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "picolo/linux/file_descriptor.hpp"
 
@@ -22,16 +23,24 @@ class PtyLine {
   PtyLine& operator=(const PtyLine&) = delete;
   ~PtyLine() { unplug(); }
 
+  /// The device speaks at this rate: whoever opens the line at another one understands nothing, and
+  /// is not understood. 0, as at first: at any.
+  void set_baud(std::uint32_t baud) { baud_ = baud; }
   /// Bytes that nobody reads are lost, as on a real line.
   void send(std::span<const std::uint8_t> bytes);
-  /// What the other side wrote; returns how much.
-  std::size_t take(std::span<std::uint8_t> buffer);
+  /// What the other side wrote.
+  [[nodiscard]] std::vector<std::uint8_t> take();
   void unplug();
   void plug();
   [[nodiscard]] bool plugged() const { return master_.is_open(); }
 
  private:
+  /// False: the other side has set another rate.
+  [[nodiscard]] bool same_rate() const { return baud_ == 0 || other_baud() == baud_; }
+  [[nodiscard]] std::uint32_t other_baud() const;
+
   std::string path_;
+  std::uint32_t baud_ = 0;
   FileDescriptor master_;
 };
 

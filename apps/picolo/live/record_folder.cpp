@@ -68,6 +68,15 @@ Status parse_frame(std::string_view word, CanFrame& frame) {
 
 }  // namespace
 
+std::optional<std::uint32_t> baud_of(const std::string& heading) {
+  std::string_view rest = heading;
+  std::uint32_t baud = 0;
+  const bool found = next_word(rest) == "#" && number(next_word(rest), baud) && baud > 0 &&
+                     next_word(rest).rfind("baud", 0) == 0;
+  if (!found) { return std::nullopt; }
+  return baud;
+}
+
 std::string candump_line(const CandumpLine& line) {
   const CanFrame& frame = line.frame;
   const std::int64_t stamp = frame.stamp.time_since_epoch().count();

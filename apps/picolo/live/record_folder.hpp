@@ -4,7 +4,9 @@
 /// The files of a recorded drive; docs/recording.md describes them.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "picolo/core/result.hpp"
@@ -28,6 +30,9 @@ struct RecordFolder {
     return path / (line + ".stamps");
   }
 };
+
+/// The rate in "# BAUD baud; ...", as LINE.stamps begins and goes on where the rate changed.
+[[nodiscard]] std::optional<std::uint32_t> baud_of(const std::string& heading);
 
 /// A line of a candump log: "(SECONDS.MICROSECONDS) INTERFACE ID#DATA", for sent frames with " T"
 /// behind it.

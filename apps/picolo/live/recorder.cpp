@@ -108,10 +108,18 @@ CanStatus RecordingCanBus::status() const {
 RecordingSerialPort::RecordingSerialPort(SerialPort& port, const RecordFolder& folder,
                                          const std::string& line)
     : port_(port), raw_(create(folder.raw(line))), stamps_(create(folder.stamps(line))) {
-  stamps_ << "# " << port.baud() << " baud; microseconds of the last byte, bytes\n";
+  note_baud();
+}
+
+void RecordingSerialPort::note_baud() {
+  if (baud_ == port_.baud()) { return; }
+  if (baud_ != 0) { tape_.add(fmt::format("b{};", port_.baud())); }
+  baud_ = port_.baud();
+  stamps_ << "# " << baud_ << " baud; microseconds of the last byte, bytes\n";
 }
 
 Result<SerialRead> RecordingSerialPort::read(std::span<std::uint8_t> buffer) {
+  note_baud();
   const Result<SerialRead> read = port_.read(buffer);
   tape_.add(read ? code_of((*read).source) : code_of(read.status()));
   if (read) {

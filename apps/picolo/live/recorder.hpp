@@ -61,7 +61,10 @@ class RecordingSerialPort final : public SerialPort {
   [[nodiscard]] std::string take() { return tape_.take(); }
 
  private:
+  void note_baud();
+
   SerialPort& port_;
+  std::uint32_t baud_ = 0;  ///< last written down
   std::ofstream raw_;
   std::ofstream stamps_;
   CallTape tape_;

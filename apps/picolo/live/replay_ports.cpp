@@ -103,11 +103,21 @@ CanStatus ReplayCanBus::status() const {
 ReplaySerialPort::ReplaySerialPort(const RecordFolder& folder, const std::string& line,
                                    std::uint32_t baud)
     : raw_(open(folder.raw(line))), stamps_(open(folder.stamps(line))), baud_(baud) {
+  baud_ = next_baud(baud);
+}
+
+/// Reads "# BAUD baud; ..." where the rate was set.
+std::uint32_t ReplaySerialPort::next_baud(std::uint32_t otherwise) {
   std::string heading;
-  std::getline(stamps_, heading);
+  std::getline(stamps_ >> std::ws, heading);
+  return baud_of(heading).value_or(otherwise);
 }
 
 Result<SerialRead> ReplaySerialPort::read(std::span<std::uint8_t> buffer) {
+  if (tape_.peek() == 'b') {
+    static_cast<void>(tape_.next());
+    baud_ = next_baud(tape_.numbers().front());
+  }
   const char code = tape_.next();
   StampSource source{};
   if (!source_of(code, source)) {

@@ -53,7 +53,7 @@ class ReplayCanBus final : public CanBus {
   std::size_t differences_ = 0;
 };
 
-/// Bytes of LINE.raw in the chunks of LINE.stamps.
+/// Bytes of LINE.raw in the chunks of LINE.stamps. `baud` is used where the file names none.
 class ReplaySerialPort final : public SerialPort {
  public:
   ReplaySerialPort(const RecordFolder& folder, const std::string& line, std::uint32_t baud);
@@ -66,6 +66,8 @@ class ReplaySerialPort final : public SerialPort {
   [[nodiscard]] bool used_up() const { return tape_.used_up(); }
 
  private:
+  std::uint32_t next_baud(std::uint32_t otherwise);
+
   std::ifstream raw_;
   std::ifstream stamps_;
   std::uint32_t baud_;

@@ -4,6 +4,7 @@
 
 #include <limits>
 
+#include "picolo/controller/command_desk.hpp"
 #include "picolo/host/config_file.hpp"
 #include "picolo/host/error.hpp"
 #include "picolo/host/library_config.hpp"
@@ -32,19 +33,19 @@ void read_count(ConfigFile& file, const std::string& section, const std::string&
   value = static_cast<Integer>(wide);
 }
 
-/// The driver's name and the line's rate; by default the first that the driver tries.
+/// The driver's name and the rates of its line.
 void read_device(ConfigFile& file, devices::Kind kind, const std::string& section,
-                 std::string& name, std::uint32_t* baud) {
+                 std::string& name, std::vector<std::uint32_t>* bauds) {
   file.read(section, "driver", name);
   const devices::DeviceInfo* device = devices::find_device(kind, name);
   if (device == nullptr) {
     throw UserError{ExitCode::usage, "", "[" + section + "] driver: there is no '" + name + "'",
                     "give one of " + devices::device_names(kind)};
   }
-  if (baud == nullptr) { return; }
-  *baud = device->bauds.front();
-  read_count(file, section, "baud", *baud);
-  if (*baud == 0) { *baud = device->bauds.front(); }
+  if (bauds == nullptr) { return; }
+  std::uint32_t baud = 0;
+  read_count(file, section, "baud", baud);
+  *bauds = baud == 0 ? device->bauds : std::vector{baud};
 }
 
 void read_duration(ConfigFile& file, const std::string& section, const std::string& key,
@@ -68,11 +69,13 @@ void read_wheels(ConfigFile& file, VehicleSettings& settings) {
   file.read("wheels", "left_inverted", wheels.left_inverted);
   file.read("wheels", "right_inverted", wheels.right_inverted);
   file.read("wheels", "produce_sync", wheels.produce_sync);
+  file.read("wheels", "set_up_nodes", wheels.set_up_nodes);
   read_count(file, "wheels", "pole_pairs", wheels.pole_pairs);
   read_count(file, "wheels", "counts_per_turn", wheels.counts_per_turn);
   file.read("wheels", "dbc_file", wheels.dbc_file);
   file.read("wheels", "left_signal", wheels.left_signal);
   file.read("wheels", "right_signal", wheels.right_signal);
+  file.read("wheels", "speed_ticks_per_unit", wheels.speed_ticks_per_unit);
 }
 
 void read_sensors(ConfigFile& file, VehicleSettings& settings) {
@@ -82,12 +85,12 @@ void read_sensors(ConfigFile& file, VehicleSettings& settings) {
   file.read("lidar", "yaw_rad", lidar.base_T_lidar.theta_rad);
   file.read("lidar", "min_range_m", lidar.limits.min_m);
   file.read("lidar", "max_range_m", lidar.limits.max_m);
-  read_device(file, devices::Kind::lidar, "lidar", settings.lidar_name, &settings.lidar_baud);
+  read_device(file, devices::Kind::lidar, "lidar", settings.lidar_name, &settings.lidar_bauds);
   file.read("lidar", "mode", settings.lidar.mode);
   read_count(file, "lidar", "samples_per_second", settings.lidar.samples_per_second);
   read_count(file, "lidar", "motor_pwm", settings.lidar.motor_pwm);
   read_count(file, "lidar", "motor_rpm", settings.lidar.motor_rpm);
-  read_device(file, devices::Kind::imu, "imu", settings.imu_name, &settings.imu_baud);
+  read_device(file, devices::Kind::imu, "imu", settings.imu_name, &settings.imu_bauds);
   read_count(file, "imu", "rate_full_scale_degps", settings.imu.rate_full_scale_degps);
   read_count(file, "imu", "acceleration_full_scale_g", settings.imu.acceleration_full_scale_g);
   bool present = settings.controller.health.expects_gyro;
@@ -133,6 +136,12 @@ VehicleSettings read_vehicle(const std::string& path) {
                     "[cycle] (the major frame is a multiple of five minor ones)"};
   }
   return settings;
+}
+
+std::string overlap_of(const VehicleSettings& settings, const std::vector<CanFilter>& wheels) {
+  const auto own = command_filters(settings.controller.frames_out);
+  return devices::describe_overlap({{"[wheels] " + settings.wheels_name, wheels},
+                                    {"picolo's own frames", {own.begin(), own.end()}}});
 }
 
 }  // namespace picolo::tool

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
 #include "picolo/controller/controller_config.hpp"
 #include "picolo/devices/registry.hpp"
@@ -24,12 +25,17 @@ struct VehicleSettings {
   devices::WheelsSettings wheels{};
   devices::LidarSettings lidar{};
   devices::ImuSettings imu{};
-  std::uint32_t lidar_baud = 0;  ///< after reading never 0
-  std::uint32_t imu_baud = 0;
+  /// The configured rate alone, or all that the driver tries; after reading never empty.
+  std::vector<std::uint32_t> lidar_bauds{};
+  std::vector<std::uint32_t> imu_bauds{};
 };
 
 /// [vehicle] [wheels] [lidar] [imu] [can] [cycle] and [localiser]; whatever else is in the file is
 /// refused. Throws UserError (usage).
 [[nodiscard]] VehicleSettings read_vehicle(const std::string& path);
+
+/// What the wheels and the controller's own frames both want, in words; empty when nothing.
+[[nodiscard]] std::string overlap_of(const VehicleSettings& settings,
+                                     const std::vector<CanFilter>& wheels);
 
 }  // namespace picolo::tool

@@ -213,6 +213,23 @@ TEST(Rplidar, GivenTurnsThenBearingsRunClockwiseAndStampsNeverBack) {
   EXPECT_EQ(starts, 4);
 }
 
+TEST(Rplidar, GivenCapsulesThenTheirNodesAreStampedBeforeTheirOwnFirstBit) {
+  FakeSerialPort port{1'000'000};
+  Rplidar lidar{port, {.mode = RplidarMode::dense, .samples_per_second = 5000, .active = false}};
+  std::array<RangeReading, 96> out{};
+  for (std::uint32_t i = 0; i < 10; ++i) {
+    const Timestamp arrived = Timestamp{1s} + i * 8ms;
+    port.arrives(arrived, capsule(i * 36 * 64 % (360 * 64), i == 0, 1000));
+    const auto count = lidar.poll(200, out);
+    if (i == 0) { continue; }
+    ASSERT_TRUE(count);
+    ASSERT_EQ(*count, 40U);
+    const Timestamp first_bit = arrived - 8ms - transmission_time(84, 1'000'000);
+    EXPECT_EQ(out[39].stamp, first_bit);
+    EXPECT_EQ(out[0].stamp, first_bit - 7800us) << "39 of 5000 a second before";
+  }
+}
+
 TEST(RplidarCapsules, GivenADenseStreamWithALostCapsuleThenOnlyThatOneIsMissing) {
   RplidarCapsules capsules{RplidarMode::dense};
   std::array<RplidarNode, kRplidarMaxNodes> nodes{};

@@ -26,6 +26,7 @@ struct Choice {
   std::string lidar;
   std::string imu;
   double worst_m;  ///< the encoders of some are coarse
+  std::string lidar_mode{};
 };
 
 using DeviceController = Controller<RoomProfile, devices::Wheels, devices::Lidar, devices::Imu>;
@@ -41,11 +42,13 @@ std::string dbc_file() {
 
 void drive(const Choice& choice) {
   SCOPED_TRACE(choice.wheels + " " + choice.lidar + " " + choice.imu);
-  auto simulation = std::make_unique<sim::Simulation>(sim::SimulationConfig{.seed = 3});
+  auto simulation = std::make_unique<sim::Simulation>(sim::SimulationConfig{
+      .seed = 3, .lidar = {.counter_clockwise = devices::turns_counter_clockwise(choice.lidar)}});
   constexpr std::uint32_t kPolePairs = 50;
   const auto bus = devices::make_wheel_dialect(choice.wheels, simulation->can(),
                                                simulation->clock(), {.pole_pairs = kPolePairs});
-  const auto lidar_port = devices::make_lidar_dialect(choice.lidar, simulation->lidar_port());
+  const auto lidar_port =
+      devices::make_lidar_dialect(choice.lidar, simulation->lidar_port(), choice.lidar_mode);
   const auto imu_port = devices::make_imu_dialect(choice.imu, simulation->imu_port());
   devices::WheelsSettings wheels_settings{.produce_sync = true, .pole_pairs = kPolePairs};
   if (choice.wheels == "dbc") {
@@ -55,9 +58,8 @@ void drive(const Choice& choice) {
     wheels_settings.counts_per_turn = 16'384;
   }
   const auto wheels = devices::make_wheels(choice.wheels, *bus, wheels_settings);
-  const auto lidar = devices::make_lidar(
-      choice.lidar, *lidar_port,
-      {.mode = choice.lidar == "ydlidar" ? "tmini" : "", .samples_per_second = 4500});
+  const auto lidar = devices::make_lidar(choice.lidar, *lidar_port,
+                                         {.mode = choice.lidar_mode, .samples_per_second = 4500});
   const auto imu = devices::make_imu(choice.imu, *imu_port);
   ControllerConfig config = simulated_vehicle_config();
   if (choice.wheels == "vesc") { config.drive.counts_per_revolution = 6.0 * kPolePairs; }
@@ -96,8 +98,9 @@ void drive(const Choice& choice) {
 TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
   for (const Choice& choice :
        {Choice{"canopen", "ld06", "witmotion", 0.15}, Choice{"odrive", "rplidar", "xsens", 0.15},
-        Choice{"vesc", "ydlidar", "bno08x-rvc", 0.25},
-        Choice{"dbc", "rplidar", "vectornav", 0.15}}) {
+        Choice{"vesc", "ydlidar", "bno08x-rvc", 0.25, "tmini"},
+        Choice{"dbc", "rplidar", "vectornav", 0.15, "dense"},
+        Choice{"canopen", "scip", "witmotion", 0.15}}) {
     drive(choice);
   }
 }
@@ -105,7 +108,8 @@ TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
 TEST(SimulatedDevices, GivenUnknownNamesThenTheMessageNamesWhatThereIs) {
   sim::SimClock clock{Timestamp{}};
   sim::SimSerialPort port{clock, 115'200};
-  EXPECT_THROW(static_cast<void>(devices::make_lidar_dialect("scip", port)), std::invalid_argument);
+  EXPECT_THROW(static_cast<void>(devices::make_lidar_dialect("rplidar", port, "ultra")),
+               std::invalid_argument);
   try {
     static_cast<void>(devices::make_lidar("sick", port));
     FAIL();

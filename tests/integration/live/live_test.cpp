@@ -75,6 +75,11 @@ TEST(Live, WrongUsageIsToldAtOnce) {
       folder, {"run", "--can", "socket:bus", "--lidar", "l", "--imu", "i", "--config", "bad.toml"});
   EXPECT_EQ(driver.exit_code, 2);
   EXPECT_THAT(driver.err, HasSubstr("ld06"));
+  folder.write("overlap.toml", "[can]\nbase_id = 384\n");
+  const test::ToolRun overlap = run_tool(folder, {"run", "--can", "socket:bus", "--lidar", "l",
+                                                  "--imu", "i", "--config", "overlap.toml"});
+  EXPECT_EQ(overlap.exit_code, 2);
+  EXPECT_THAT(overlap.err, HasSubstr("identifier 0x181 is used by [wheels] canopen and by"));
   const test::ToolRun imu = run_tool(folder, {"run", "--can", "socket:bus", "--lidar", "l"});
   EXPECT_EQ(imu.exit_code, 2);
   EXPECT_THAT(imu.err, HasSubstr("present = false"));

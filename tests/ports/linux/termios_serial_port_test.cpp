@@ -11,11 +11,13 @@
 #include <unistd.h>
 
 #include <array>
+#include <iostream>
 #include <string>
 #include <vector>
 
 #include "picolo/linux/linux_clock.hpp"
 #include "pseudo_terminal.hpp"
+#include "system_calls.hpp"
 
 namespace picolo {
 namespace {
@@ -60,6 +62,25 @@ TEST_F(TermiosTest, GivenTheRatesOfTheDevicesThenEachIsSet) {
   }
 }
 
+TEST_F(TermiosTest, GivenAnotherRateThenItIsSetAndTheDriverHearsOfAnInterruption) {
+  TermiosSerialPort port{clock, {.baud = 9'600}};
+  ASSERT_EQ(port.open(terminal.path().c_str()), Status::ok);
+  ASSERT_TRUE(terminal.send(std::array<std::uint8_t, 2>{1, 2}));
+  ::usleep(20'000);
+  ASSERT_EQ(port.set_baud(256'000), Status::ok);
+  EXPECT_EQ(port.baud(), 256'000U);
+  const FileDescriptor line{::open(terminal.path().c_str(), O_RDWR | O_NOCTTY)};
+  EXPECT_EQ(test::line_rate(line.get()), 256'000U);
+  EXPECT_EQ(port.read(buffer).status(), Status::disconnected) << "once";
+  EXPECT_EQ(port.read(buffer).status(), Status::not_ready) << "what came at the old rate is void";
+  EXPECT_EQ(port.disconnects(), 0U);
+  EXPECT_EQ(port.set_baud(0), Status::invalid_argument);
+  TermiosSerialPort closed{clock, {.baud = 9'600}};
+  EXPECT_EQ(closed.set_baud(115'200), Status::ok);
+  ASSERT_EQ(closed.open(terminal.path().c_str()), Status::ok);
+  EXPECT_EQ(test::line_rate(line.get()), 115'200U);
+}
+
 TEST_F(TermiosTest, WhenReadThenTheStampIsTheTimeOfTheRead) {
   TermiosSerialPort port{clock, {}};
   ASSERT_EQ(port.open(terminal.path().c_str()), Status::ok);
@@ -102,6 +123,23 @@ TEST_F(TermiosTest, GivenAnUnpluggedDeviceThenItIsLookedForOnlyOncePerPeriod) {
   EXPECT_EQ(port.read(buffer).status(), Status::not_ready);
   EXPECT_TRUE(port.is_open());
   EXPECT_EQ(port.lost(), 0U);
+}
+
+TEST_F(TermiosTest, GivenAnUnpluggedDeviceThenTenSecondsOfCyclesCostOneSystemCallATry) {
+  TermiosSerialPort port{clock, {.retry_period = 500ms}};
+  ASSERT_EQ(port.open(terminal.path().c_str()), Status::ok);
+  terminal.unplug();
+  const auto calls = test::system_calls_of([&] {
+    for (int cycle = 0; cycle < 2000; ++cycle) {
+      clock.time += 5ms;
+      static_cast<void>(port.read(buffer));
+      static_cast<void>(port.write(std::array<std::uint8_t, 2>{0xA5, 0x25}));
+    }
+  });
+  if (!calls) { GTEST_SKIP() << "this process may not trace others"; }
+  std::cout << *calls << " system calls in 2000 cycles\n";
+  EXPECT_GE(*calls, 20);
+  EXPECT_LE(*calls, 40) << "20 tries, and the end of the device";
 }
 
 TEST_F(TermiosTest, GivenAnUnpluggedDeviceThenWritingNoticesItToo) {

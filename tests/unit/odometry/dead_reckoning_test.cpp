@@ -35,6 +35,16 @@ TEST(DeadReckoning, WithoutGyroTheWheelsTurnAlone) {
   EXPECT_EQ(reckoning.counters().with_gyro, 0U);
 }
 
+TEST(DeadReckoning, StampsInABunchAreNoSpeed) {
+  DeadReckoning reckoning;
+  reckoning.add(wheels(0, 10, 0.01, 0.0));
+  WheelIncrement bunched = wheels(10, 10, 0.0003, 0.0);
+  bunched.to += 1us;
+  reckoning.add(bunched);
+  EXPECT_NEAR(reckoning.pose().odom_T_base.x_m, 0.0103, 1e-9) << "the way counts";
+  EXPECT_NEAR(reckoning.base_twist().x_mps, 1.0F, 1e-5F) << "300 m/s";
+}
+
 TEST(DeadReckoning, TheGyroCorrectsTheTurnOfSlippingWheels) {
   DeadReckoning reckoning;
   for (int ms = 0; ms <= 1000; ms += 5) {

@@ -20,10 +20,13 @@ namespace picolo::inline v0::devices {
 using SerialPortPointer = std::unique_ptr<SerialPort, void (*)(SerialPort*)>;
 using CanBusPointer = std::unique_ptr<CanBus, void (*)(CanBus*)>;
 
-/// rplidar (it obeys stop, info, health and scan) and ydlidar (three bytes a sample, optics of the
-/// T-mini). ld06 itself passes through. Throws std::invalid_argument for others: a SCIP lidar turns
-/// the other way round, which the simulated one cannot.
-[[nodiscard]] SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06);
+/// rplidar (standard nodes, or with mode "dense" capsules 0x85), ydlidar (three bytes a sample,
+/// optics of the T-mini) and scip (338 of 450 steps a turn) obey their commands: start, stop, info,
+/// health, parameters. ld06 passes through. Throws std::invalid_argument for others.
+[[nodiscard]] SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06,
+                                                   const std::string& mode = "");
+/// Such a lidar needs a simulated LD06 that turns so too (Ld06ModelConfig::counter_clockwise).
+[[nodiscard]] bool turns_counter_clockwise(const std::string& name);
 /// xsens, vectornav, bno08x-rvc; witmotion passes through.
 [[nodiscard]] SerialPortPointer make_imu_dialect(const std::string& name, SerialPort& witmotion);
 

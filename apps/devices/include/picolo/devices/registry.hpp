@@ -10,6 +10,7 @@
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "picolo/core/result.hpp"
@@ -32,6 +33,7 @@ struct DeviceInfo {
   std::vector<std::uint32_t> bauds;  ///< to be tried in this order; empty on CAN
   bool has_gyro = false;             ///< of an IMU
   bool dtr = true;                   ///< level of the DTR line that its adapter needs
+  bool on_request = false;           ///< silent until it is asked
 };
 
 [[nodiscard]] const std::vector<DeviceInfo>& all_devices();
@@ -45,6 +47,8 @@ struct Counter {
   std::uint64_t value = 0;
 };
 using Counters = std::vector<Counter>;
+/// 0 where a device does not count that.
+[[nodiscard]] std::uint64_t value_of(const Counters& counters, std::string_view name);
 
 /// A lidar behind its driver; satisfies LidarDevice.
 class Lidar {

@@ -39,6 +39,9 @@ class TermiosSerialPort final : public SerialPort {
   Status open(const char* path);
   /// Takes over an open terminal; it is not opened again after it has gone. Status as above.
   Status adopt(int fd);
+  /// Another rate, also for every later opening. What came at the old one is void: the next `read`
+  /// answers `disconnected` once. `unsupported`: the adapter cannot do it; the old rate stays.
+  Status set_baud(std::uint32_t baud);
   [[nodiscard]] bool is_open() const { return device_.is_open(); }
 
   Result<SerialRead> read(std::span<std::uint8_t> buffer) override;
@@ -65,6 +68,7 @@ class TermiosSerialPort final : public SerialPort {
   TermiosConfig config_;
   FileDescriptor device_{};
   std::array<char, 256> path_{};
+  bool rate_changed_ = false;
   Timestamp next_try_{};
   std::uint32_t disconnects_ = 0;
   std::uint32_t lost_before_ = 0;  ///< on devices that have gone since

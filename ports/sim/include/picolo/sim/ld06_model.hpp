@@ -25,6 +25,9 @@ struct Ld06ModelConfig {
   double min_range_m = 0.02;
   double max_range_m = 12.0;
   double dropout = 0.005;  ///< share of beams that come back empty
+  /// Against what an LD06 does: every beam looks to the other side of the x axis than its packet
+  /// says. For those who repeat what it says in the words of a lidar that turns so.
+  bool counter_clockwise = false;
   Duration latency{};      ///< from the last point of a packet to the packet's first bit
   Duration device_clock_offset = 17s;  ///< the device's own clock at the start of the simulation
   [[nodiscard]] constexpr bool valid() const {

@@ -103,6 +103,7 @@ class RplidarProtocol {
   std::size_t scan_request(std::span<std::uint8_t> out) const;
   std::size_t motor_request(std::uint16_t value, std::span<std::uint8_t> out) const;
   void decode(std::uint8_t byte);
+  Timestamp measured_before(const ByteTime& time);
 
   RplidarConfig config_;
   RplidarStandardDecoder standard_{};
@@ -119,6 +120,8 @@ class RplidarProtocol {
   std::uint8_t answer_type_ = 0;
   std::array<RplidarNode, kRplidarMaxNodes> nodes_{};
   std::size_t node_count_ = 0;
+  bool capsule_ended_ = false;
+  Timestamp capsule_begin_{};  ///< first bit of the last one
   RplidarTrouble trouble_ = RplidarTrouble::none;
   RplidarHealth health_ = RplidarHealth::unknown;
   RplidarInfo info_{};

@@ -33,6 +33,10 @@ class RplidarCapsules {
   /// how many: 0, 32, 96 or 40.
   std::size_t push(std::uint8_t byte, std::span<RplidarNode, kRplidarMaxNodes> nodes);
   [[nodiscard]] std::size_t capsule_size() const { return framer_.format().size; }
+  /// From the first byte of the capsule that the last `push` completed up to that byte.
+  [[nodiscard]] std::size_t bytes_of_capsule() const {
+    return framer_.frame().size() + framer_.bytes_after_frame();
+  }
   /// Forgets what waits; a new stream begins.
   void reset(RplidarMode mode);
   [[nodiscard]] const FramerCounters& counters() const { return framer_.counters(); }

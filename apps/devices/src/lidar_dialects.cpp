@@ -1,0 +1,167 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+// The simulated LD06 in the bytes of other lidars that turn clockwise.
+#include <algorithm>
+#include <stdexcept>
+
+#include "dialect.hpp"
+#include "picolo/core/crc.hpp"
+#include "picolo/drivers/common/turn_cutter.hpp"
+
+namespace picolo::inline v0::devices {
+namespace {
+
+std::uint32_t angle_q6(const Ld06Packet& packet, std::size_t point) {
+  const std::uint32_t along = span_cdeg(packet) * static_cast<std::uint32_t>(point) / 11U;
+  return (packet.start_cdeg + along) % kLd06FullTurnCdeg * 64U / 100U;
+}
+
+/// Commands of two bytes, A5 and a letter; a payload behind them says nothing here.
+class CommandedLidar : public LidarDialect {
+ public:
+  using LidarDialect::LidarDialect;
+
+ protected:
+  virtual void command(std::uint8_t letter) = 0;
+
+ private:
+  void obey(std::uint8_t byte) final {
+    const bool is_command = before_ == 0xA5;
+    before_ = is_command ? std::uint8_t{0} : byte;
+    if (is_command) { command(byte); }
+  }
+  std::uint8_t before_ = 0;
+};
+
+class RplidarDialect final : public CommandedLidar {
+ public:
+  RplidarDialect(SerialPort& ld06, bool dense) : CommandedLidar(ld06), dense_(dense) {}
+
+ private:
+  void packet(const Ld06Packet& packet, Timestamp stamp) override {
+    const Bytes bytes = dense_ ? capsules(packet) : nodes(packet);
+    if (scanning_ && !bytes.empty()) { say(bytes, stamp); }
+    for (const Bytes& answer : answers_) { say(answer, stamp); }
+    answers_.clear();
+    scanning_ = scanning_ || starts_;
+    starts_ = false;
+  }
+
+  Bytes nodes(const Ld06Packet& packet) {
+    Bytes bytes;
+    for (std::size_t i = 0; i < packet.points.size(); ++i) {
+      const std::uint32_t angle = angle_q6(packet, i);
+      const bool start = cutter_.passes_zero(angle);
+      bytes.push_back(static_cast<std::uint8_t>((15U << 2U) | (start ? 1U : 2U)));
+      add_u16(bytes, (angle << 1U) | 1U);
+      add_u16(bytes, std::min<unsigned>(packet.points[i].distance_mm * 4U, 0xFFFFU));
+    }
+    return bytes;
+  }
+
+  /// A capsule has 40 points, a packet 12: now and then one is full.
+  Bytes capsules(const Ld06Packet& packet) {
+    constexpr std::size_t kCapsule = 84;
+    Bytes full;
+    for (std::size_t i = 0; i < packet.points.size(); ++i) {
+      if (capsule_.empty()) {
+        capsule_ = {0, 0};
+        add_u16(capsule_, angle_q6(packet, i));
+      }
+      add_u16(capsule_, packet.points[i].distance_mm);
+      if (capsule_.size() < kCapsule) { continue; }
+      const std::uint8_t sum = xor8(ByteView{capsule_}.subspan(2));
+      capsule_[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
+      capsule_[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+      full = std::exchange(capsule_, {});
+    }
+    return full;
+  }
+
+  void command(std::uint8_t letter) override {
+    if (letter == 0x25) { scanning_ = false; }
+    if (letter == 0x50) {
+      Bytes answer{0xA5, 0x5A, 0x14, 0, 0, 0, 0x04, 0x18, 0, 1, 7};
+      answer.resize(27);
+      answers_.push_back(answer);
+    }
+    if (letter == 0x52) { answers_.push_back({0xA5, 0x5A, 0x03, 0, 0, 0, 0x06, 0, 0, 0}); }
+    if (letter == 0x20 && !dense_) {
+      answers_.push_back({0xA5, 0x5A, 0x05, 0, 0, 0x40, 0x81});
+      starts_ = true;
+    }
+    if (letter == 0x82 && dense_) {
+      answers_.push_back({0xA5, 0x5A, 0x54, 0, 0, 0x40, 0x85});
+      starts_ = true;
+      capsule_.clear();
+    }
+  }
+
+  const bool dense_;
+  TurnCutter cutter_{360 * 64};
+  Bytes capsule_;
+  std::vector<Bytes> answers_;
+  bool scanning_ = false;
+  bool starts_ = false;
+};
+
+class YdlidarDialect final : public CommandedLidar {
+ public:
+  using CommandedLidar::CommandedLidar;
+
+ private:
+  void packet(const Ld06Packet& packet, Timestamp stamp) override {
+    const unsigned first = (angle_q6(packet, 0) << 1U) | 1U;
+    const unsigned last = (angle_q6(packet, 11) << 1U) | 1U;
+    const unsigned head = 12U << 8U;
+    unsigned sum = 0x55AAU ^ head ^ first ^ last;
+    Bytes samples;
+    for (const Ld06Point& point : packet.points) {
+      const unsigned raw = std::min<unsigned>(point.distance_mm, 16'383U) << 2U;
+      samples.push_back(point.intensity);
+      add_u16(samples, raw);
+      sum ^= point.intensity ^ raw;
+    }
+    Bytes bytes;
+    for (const unsigned word : {0x55AAU, head, first, last, sum}) { add_u16(bytes, word); }
+    bytes.insert(bytes.end(), samples.begin(), samples.end());
+    if (scanning_) { say(bytes, stamp); }
+    if (starts_) { say({0xA5, 0x5A, 0x05, 0, 0, 0x40, 0x81}, stamp); }
+    scanning_ = scanning_ || starts_;
+    starts_ = false;
+  }
+
+  void command(std::uint8_t letter) override {
+    starts_ = letter == 0x60 && !scanning_;
+    if (letter == 0x65) { scanning_ = false; }
+  }
+
+  bool scanning_ = false;
+  bool starts_ = false;
+};
+
+}  // namespace
+
+void refuse_dialect(const std::string& name) {
+  throw std::invalid_argument{"the simulated vehicle cannot speak '" + name +
+                              "'; lidars: ld06, rplidar (standard and dense), ydlidar, scip; IMUs: "
+                              "witmotion, xsens, vectornav, bno08x-rvc; wheels: canopen, odrive, "
+                              "vesc, dbc"};
+}
+
+SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06,
+                                     const std::string& mode) {
+  if (name == "ld06") { return make_port<PassingLine>(ld06); }
+  if (name == "rplidar" && (mode.empty() || mode == "standard" || mode == "dense")) {
+    return make_port<RplidarDialect>(ld06, mode == "dense");
+  }
+  if (name == "ydlidar") { return make_port<YdlidarDialect>(ld06); }
+  if (name == "scip") { return make_scip_dialect(ld06); }
+  refuse_dialect(mode.empty() ? name : name + " " + mode);
+}
+
+bool turns_counter_clockwise(const std::string& name) {
+  return name == "scip";
+}
+
+}  // namespace picolo::inline v0::devices

@@ -6,6 +6,7 @@
 // CAN1 and into the UARTs. Prints names and figures for tests/target/platforms to judge.
 
 #include <algorithm>
+#include <initializer_list>
 #include <new>
 
 #include "picolo/controller/controller.hpp"
@@ -119,11 +120,18 @@ void Robot::read_pose_off_the_bus() {
   ++poses_read;
 }
 
-void tell(const char* name, std::uint64_t value) {
-  platform::write(name);
-  platform::write(" ");
-  platform::write_decimal(value);
-  platform::write("\n");
+struct Figure {
+  const char* name;
+  std::uint64_t value;
+};
+
+void tell(std::initializer_list<Figure> figures) {
+  for (const Figure& figure : figures) {
+    platform::write(figure.name);
+    platform::write(" ");
+    platform::write_decimal(figure.value);
+    platform::write("\n");
+  }
 }
 
 std::uint64_t micro(double value) {
@@ -133,54 +141,54 @@ std::uint64_t micro(double value) {
 
 void tell_bus(const Robot& robot) {
   const HeardOnBus& heard = robot.vehicle.heard();
-  tell("boot_ups", heard.boot_ups);
-  tell("heartbeats", heard.heartbeats);
-  tell("service_requests", heard.service_requests);
-  tell("service_answers", heard.service_answers);
-  tell("service_aborts", heard.service_aborts);
-  tell("starts", heard.starts);
-  tell("syncs", heard.syncs);
-  tell("process_data", heard.process_data);
-  tell("from_controller", heard.from_controller);
-  tell("foreign", heard.foreign);
-  tell("vehicle_refused", robot.vehicle.refused());
+  tell({{"boot_ups", heard.boot_ups},
+        {"heartbeats", heard.heartbeats},
+        {"service_requests", heard.service_requests},
+        {"service_answers", heard.service_answers},
+        {"service_aborts", heard.service_aborts},
+        {"starts", heard.starts},
+        {"syncs", heard.syncs},
+        {"process_data", heard.process_data},
+        {"from_controller", heard.from_controller},
+        {"foreign", heard.foreign},
+        {"vehicle_refused", robot.vehicle.refused()}});
 }
 
 void tell_controller(const Robot& robot) {
   const CanStatus can = robot.can.status();
   const ControllerCounters& counters = robot.controller.counters();
   const CanopenWheelsCounters wheels = robot.wheels.counters();
-  tell("can_received", can.received);
-  tell("can_transmitted", can.transmitted);
-  tell("can_lost", can.rx_lost + can.tx_refused);
-  tell("nodes_operational", robot.wheels.healthy() ? robot.wheels.node_count() : 0);
-  tell("setup_failures", wheels.setup_failures);
-  tell("controller_syncs", wheels.syncs_sent);
-  tell("controller_process_data", wheels.process_data);
-  tell("ticks", counters.ticks);
-  tell("readings", counters.readings);
-  tell("imu_samples", counters.imu_samples);
-  tell("serial_lost", robot.lidar_port.lost() + robot.imu_port.lost());
-  tell("unexpected_interrupts", robot.interrupts.unexpected());
-  tell("overruns", robot.controller.schedule().overruns());
-  tell("timer_wake_ups", robot.timer.wake_ups());
-  tell("watchdog_fired", robot.watchdog.fired() ? 1 : 0);
+  tell({{"can_received", can.received},
+        {"can_transmitted", can.transmitted},
+        {"can_lost", can.rx_lost + can.tx_refused},
+        {"nodes_operational", robot.wheels.healthy() ? robot.wheels.node_count() : 0},
+        {"setup_failures", wheels.setup_failures},
+        {"controller_syncs", wheels.syncs_sent},
+        {"controller_process_data", wheels.process_data},
+        {"ticks", counters.ticks},
+        {"readings", counters.readings},
+        {"imu_samples", counters.imu_samples},
+        {"serial_lost", robot.lidar_port.lost() + robot.imu_port.lost()},
+        {"unexpected_interrupts", robot.interrupts.unexpected()},
+        {"overruns", robot.controller.schedule().overruns()},
+        {"timer_wake_ups", robot.timer.wake_ups()},
+        {"watchdog_fired", std::uint64_t{robot.watchdog.fired()}}});
 }
 
 void tell_pose(const Robot& robot) {
   const PoseEstimate& estimate = robot.controller.estimate();
   const sim::Simulation& simulation = robot.vehicle.simulation();
-  tell("matches", estimate.matches);
-  tell("state", static_cast<std::uint64_t>(estimate.state));
+  tell({{"matches", estimate.matches},
+        {"state", static_cast<std::uint64_t>(estimate.state)},
+        {"poses_read", robot.poses_read},
+        {"bus_deviation_um", micro(robot.bus_deviation_m)}});
   if (const Result<sim::Truth> truth = simulation.truth(estimate.stamp)) {
     const Pose2d pose = between(simulation.config().scene.world_T_start, truth->world_T_base);
-    tell("travelled_x_um", micro(pose.x_m));
-    tell("error_x_um", micro(estimate.map_T_base.x_m - pose.x_m));
-    tell("error_y_um", micro(estimate.map_T_base.y_m - pose.y_m));
-    tell("error_yaw_urad", micro(wrap_angle(estimate.map_T_base.theta_rad - pose.theta_rad)));
+    tell({{"travelled_x_um", micro(pose.x_m)},
+          {"error_x_um", micro(estimate.map_T_base.x_m - pose.x_m)},
+          {"error_y_um", micro(estimate.map_T_base.y_m - pose.y_m)},
+          {"error_yaw_urad", micro(wrap_angle(estimate.map_T_base.theta_rad - pose.theta_rad))}});
   }
-  tell("poses_read", robot.poses_read);
-  tell("bus_deviation_um", micro(robot.bus_deviation_m));
 }
 
 int run() {
@@ -196,7 +204,7 @@ int run() {
     if (robot.controller.reporter().sent() != told) { robot.read_pose_off_the_bus(); }
     ++frames;
   }
-  tell("frames", frames);
+  tell({{"frames", frames}});
   tell_bus(robot);
   tell_controller(robot);
   tell_pose(robot);

@@ -6,7 +6,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <iostream>
 #include <map>
@@ -14,39 +13,24 @@
 
 #include "picolo/localisation/pose_estimate.hpp"
 #include "platforms.hpp"
+#include "support/files.hpp"
 
 namespace picolo::target {
 namespace {
 
 /// Two serial lines of a board, connected with each other through a socket of QEMU's.
-class CrossedLines {
- public:
-  CrossedLines() {
-    std::string name = (std::filesystem::temp_directory_path() / "picolo-XXXXXX").string();
-    folder_ = ::mkdtemp(name.data()) == nullptr ? "" : name;
-  }
-  CrossedLines(const CrossedLines&) = delete;
-  CrossedLines& operator=(const CrossedLines&) = delete;
-  ~CrossedLines() {
-    std::error_code ignored;
-    std::filesystem::remove_all(folder_, ignored);
-  }
-  [[nodiscard]] std::string options() const {
-    const std::string path = ",path=" + folder_ + "/line";
-    return "-chardev socket,id=near" + path + ",server=on,wait=off -chardev socket,id=far" + path +
-           " -serial chardev:near -serial chardev:far";
-  }
-
- private:
-  std::string folder_;
-};
+std::string crossed_lines(const test::TemporaryFolder& folder) {
+  const std::string path = ",path=" + (folder.path() / "line").string();
+  return "-chardev socket,id=near" + path + ",server=on,wait=off -chardev socket,id=far" + path +
+         " -serial chardev:near -serial chardev:far";
+}
 
 TEST(Devices, OfEveryBoardKeepTheContractsOfHal) {
   PICOLO_NEED_IMAGES();
   for (const Platform& platform : platforms_to_judge()) {
     if (!std::filesystem::exists(image(platform, "conformance"))) { continue; }
-    const CrossedLines lines;
-    const Outcome outcome = run(platform, "conformance", {}, lines.options());
+    const test::TemporaryFolder folder;
+    const Outcome outcome = run(platform, "conformance", {}, crossed_lines(folder));
     EXPECT_EQ(outcome.status, 0) << platform.name << ":\n" << outcome.output;
     EXPECT_NE(outcome.output.find("CanBus: "), std::string::npos) << outcome.output;
     std::cout << platform.name << "\n" << outcome.output;

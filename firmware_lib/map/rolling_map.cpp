@@ -10,6 +10,7 @@
 #include "picolo/core/convert_inline.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
+#include "tile_field.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -121,47 +122,61 @@ void RollingMapCore::begin_scan() {
   last_changed_row_ = -1;
 }
 
-bool RollingMapCore::mark_changed(std::size_t index) {
-  std::uint32_t& word = storage_.changed[index / 32];
-  const std::uint32_t bit = 1U << (index % 32);
+void RollingMapCore::touch_rows(int first, int last) {
+  first_changed_row_ = std::min(first_changed_row_, first);
+  last_changed_row_ = std::max(last_changed_row_, last);
+}
+
+// The first change of a cell in this scan?
+bool RollingMapCore::mark_changed(int index) {
+  std::uint32_t& word = storage_.changed[static_cast<std::size_t>(index) / 32];
+  const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(index) % 32U);
   if ((word & bit) != 0) { return false; }
   word |= bit;
   return true;
 }
 
-void RollingMapCore::change(int column, int row, int delta) {
-  const std::size_t index =
-      static_cast<std::size_t>(row) * static_cast<std::size_t>(window_.width) +
-      static_cast<std::size_t>(column);
+void RollingMapCore::hit_cell(int column, int row) {
+  const int index = row * window_.width + column;
+  touch_rows(row, row);
   if (!mark_changed(index)) { return; }
-  first_changed_row_ = std::min(first_changed_row_, row);
-  last_changed_row_ = std::max(last_changed_row_, row);
-  std::int8_t& cell = storage_.occupancy[index];
+  ++work_.changed_cells;
+  std::int8_t& cell = storage_.occupancy[static_cast<std::size_t>(index)];
   const bool was_occupied = cell >= config_.occupied_from;
-  cell = static_cast<std::int8_t>(
-      std::clamp(cell + delta, static_cast<int>(config_.low), static_cast<int>(config_.high)));
-  const bool is_occupied = cell >= config_.occupied_from;
-  if (is_occupied && !was_occupied) { paint(column, row); }
-  if (was_occupied && !is_occupied) { mark_stale(column, row); }
+  cell = static_cast<std::int8_t>(std::min<int>(cell + config_.hit, config_.high));
+  if (cell >= config_.occupied_from && !was_occupied) { paint(column, row); }
+}
+
+// Out of line: it is the rare case of the loops that call it.
+[[gnu::noinline]] void RollingMapCore::clear_cell(int index) {
+  if (!mark_changed(index)) { return; }
+  ++work_.changed_cells;
+  std::int8_t& cell = storage_.occupancy[static_cast<std::size_t>(index)];
+  const int before = cell;
+  cell = static_cast<std::int8_t>(std::max<int>(before + config_.miss, config_.low));
+  if (before >= config_.occupied_from && cell < config_.occupied_from) { mark_stale(index); }
 }
 
 void RollingMapCore::paint(int column, int row) {
+  ++work_.new_obstacles;
   const int radius = config_.field_radius_cells;
-  const int first_column = std::max(0, column - radius);
-  const int last_column = std::min(window_.width - 1, column + radius);
-  const int last_row = std::min(window_.height - 1, row + radius);
-  for (int y = std::max(0, row - radius); y <= last_row; ++y) {
-    std::uint8_t* const line =
-        storage_.field.data() + static_cast<std::ptrdiff_t>(y) * window_.width;
-    for (int x = first_column; x <= last_column; ++x) {
-      const int square =
-          std::min((x - column) * (x - column) + (y - row) * (y - row), radius * radius);
-      line[x] = std::min(line[x], byte_of_square_[static_cast<std::size_t>(square)]);
+  int half = radius;  // of the circle's line that is at hand
+  for (int dy = 0; dy < radius; ++dy) {
+    while (half * half + dy * dy >= radius * radius) { --half; }
+    const int first = std::max(0, column - half) - column;
+    const int last = std::min(window_.width - 1, column + half) - column;
+    const std::uint8_t* const bytes = byte_of_square_.data() + dy * dy;
+    for (const int y : {row - dy, row + dy}) {
+      if (y < 0 || y >= window_.height) { continue; }
+      std::uint8_t* const line = storage_.field.data() + y * window_.width + column;
+      for (int dx = first; dx <= last; ++dx) { line[dx] = std::min(line[dx], bytes[dx * dx]); }
     }
   }
 }
 
-void RollingMapCore::mark_stale(int column, int row) {
+[[gnu::noinline]] void RollingMapCore::mark_stale(int index) {
+  const int column = index % window_.width;
+  const int row = index / window_.width;
   const int radius = config_.field_radius_cells;
   const int tiles_across = window_.width / kTileCells;
   const int last_column = std::min(window_.width - 1, column + radius) / kTileCells;
@@ -179,7 +194,7 @@ void RollingMapCore::add_hit(Point2f window_p) {
   const int column = cell_at(window_p.x_m * cells_per_m_);
   const int row = cell_at(window_p.y_m * cells_per_m_);
   if (column < 0 || row < 0 || column >= window_.width || row >= window_.height) { return; }
-  change(column, row, config_.hit);
+  hit_cell(column, row);
 }
 
 void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_cells) {
@@ -195,7 +210,10 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
   const int dy = to_row > row ? to_row - row : row - to_row;
   const int step_x = to_column > column ? 1 : -1;
   const int step_y = to_row > row ? 1 : -1;
-  const int steps = std::max(dx, dy) - stop_cells;
+  const int steps = std::max(0, std::max(dx, dy) - stop_cells);
+  work_.ray_cells += static_cast<std::uint32_t>(steps);
+  touch_rows(std::clamp(std::min(row, to_row), 0, window_.height - 1),
+             std::clamp(std::max(row, to_row), 0, window_.height - 1));
   if (inside(column, row) && inside(to_column, to_row)) {
     const int next_row = step_y * window_.width;
     const Line line = dx >= dy ? Line{dx, dy, step_x, next_row} : Line{dy, dx, next_row, step_x};
@@ -204,9 +222,8 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
   }
   int error = dx - dy;
   for (int i = 0; i < steps && inside(column, row); ++i) {
-    if (storage_.occupancy[index_of(column, row)] > config_.low) {
-      change(column, row, config_.miss);
-    }
+    const std::size_t index = index_of(column, row);
+    if (storage_.occupancy[index] > config_.low) { clear_cell(static_cast<int>(index)); }
     const int twice = 2 * error;
     if (twice > -dy) {
       error -= dy;
@@ -217,10 +234,6 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
       row += step_y;
     }
   }
-}
-
-[[gnu::noinline]] void RollingMapCore::clear_cell(int index) {
-  change(index % window_.width, index / window_.width, config_.miss);
 }
 
 // The same cells as the loop above, which steps along the longer axis every time.
@@ -245,6 +258,7 @@ void RollingMapCore::clear_line(const Line& line, int index, int steps) {
 int RollingMapCore::repair(int max_tiles) {
   const std::size_t tiles = storage_.stale_tiles.size();
   const int tiles_across = window_.width / kTileCells;
+  const int radius = config_.field_radius_cells;
   int done = 0;
   for (std::size_t looked_at = 0; looked_at < tiles && stale_count_ > 0 && done < max_tiles;
        ++looked_at) {
@@ -254,60 +268,19 @@ int RollingMapCore::repair(int max_tiles) {
     storage_.stale_tiles[tile] = 0;
     --stale_count_;
     ++done;
-    recompute_tile(static_cast<int>(tile) % tiles_across, static_cast<int>(tile) / tiles_across);
+    ++work_.repaired_tiles;
+    compute_tile_field({.occupancy = storage_.occupancy.data(),
+                        .field = storage_.field.data(),
+                        .width = window_.width,
+                        .height = window_.height,
+                        .column = static_cast<int>(tile) % tiles_across * kTileCells,
+                        .row = static_cast<int>(tile) / tiles_across * kTileCells,
+                        .radius = radius,
+                        .occupied_from = config_.occupied_from,
+                        .byte_of_square = std::span{byte_of_square_}.first(
+                            static_cast<std::size_t>(radius * radius) + 1)});
   }
   return done;
-}
-
-// Exact truncated distance transform of one tile in two passes (Felzenszwalb and Huttenlocher 2012,
-// brute force over the radius): down the columns the nearest obstacle above and below, then along
-// the rows the least sum of squares.
-void RollingMapCore::recompute_tile(int tile_column, int tile_row) {
-  constexpr int kColumns = kTileCells + 2 * kMaxFieldRadius;
-  const int radius = config_.field_radius_cells;
-  const int x0 = tile_column * kTileCells;
-  const int y0 = tile_row * kTileCells;
-  std::array<std::array<std::uint8_t, kColumns>, kTileCells> vertical{};
-
-  for (int i = 0; i < kTileCells + 2 * radius; ++i) {
-    const int x = x0 - radius + i;
-    const bool exists = x >= 0 && x < window_.width;
-    const auto occupied = [&](int y) {
-      return exists && y >= 0 && y < window_.height &&
-             storage_.occupancy[static_cast<std::size_t>(y) *
-                                    static_cast<std::size_t>(window_.width) +
-                                static_cast<std::size_t>(x)] >= config_.occupied_from;
-    };
-    int since = radius;
-    for (int y = y0 - radius; y < y0 + kTileCells; ++y) {
-      since = occupied(y) ? 0 : std::min(since + 1, radius);
-      if (y >= y0) {
-        vertical[static_cast<std::size_t>(y - y0)][static_cast<std::size_t>(i)] =
-            static_cast<std::uint8_t>(since);
-      }
-    }
-    since = radius;
-    for (int y = y0 + kTileCells - 1 + radius; y >= y0; --y) {
-      since = occupied(y) ? 0 : std::min(since + 1, radius);
-      if (y < y0 + kTileCells) {
-        std::uint8_t& nearest =
-            vertical[static_cast<std::size_t>(y - y0)][static_cast<std::size_t>(i)];
-        nearest = std::min(nearest, static_cast<std::uint8_t>(since));
-      }
-    }
-  }
-
-  for (int y = 0; y < kTileCells; ++y) {
-    const auto& line = vertical[static_cast<std::size_t>(y)];
-    for (int x = 0; x < kTileCells; ++x) {
-      int square = radius * radius;
-      for (int dx = -radius; dx <= radius; ++dx) {
-        const int down = line[static_cast<std::size_t>(x + radius + dx)];
-        if (down < radius) { square = std::min(square, dx * dx + down * down); }
-      }
-      storage_.field[index_of(x0 + x, y0 + y)] = byte_of_square_[static_cast<std::size_t>(square)];
-    }
-  }
 }
 
 }  // namespace picolo::inline v0

@@ -175,6 +175,7 @@ class LocaliserCore {
   [[nodiscard]] const Pose2f& last_correction() const { return last_correction_; }
   [[nodiscard]] const LocaliserCounters& counters() const { return counters_; }
   [[nodiscard]] const RollingMapCore& map() const { return fine_; }
+  [[nodiscard]] const RollingMapCore& coarse_map() const { return coarse_; }
   [[nodiscard]] const LocaliserConfig& config() const { return config_; }
 
  private:

@@ -36,6 +36,15 @@ struct MapConfig {
 };
 static_assert(MapConfig{}.valid());
 
+/// Work done so far; never reset, modulo 2^32. Times what each costs, it bounds the instructions of
+/// a map update: see docs/targets.md.
+struct MapWork {
+  std::uint32_t ray_cells = 0;      ///< that rays walked over
+  std::uint32_t changed_cells = 0;  ///< of which the log-odds changed
+  std::uint32_t new_obstacles = 0;  ///< each paints the field around it
+  std::uint32_t repaired_tiles = 0;
+};
+
 /// Spans over the storage of a `RollingMap`.
 struct MapStorage {
   std::span<std::int8_t> occupancy;     ///< width * height, log-odds, 0 unknown
@@ -70,10 +79,11 @@ class RollingMapCore {
   /// Clears the cells from the lidar to `stop_cells` short of the end of the beam. Cost: O(width +
   /// height).
   void add_ray(Point2f window_lidar, Point2f window_p, int stop_cells);
-  /// Recomputes the field of up to `max_tiles` stale tiles; returns how many it did. Cost: about 10
+  /// Recomputes the field of up to `max_tiles` stale tiles; returns how many it did. Cost: up to 12
   /// 000 instructions a tile.
   int repair(int max_tiles);
   [[nodiscard]] int stale_tiles() const { return stale_count_; }
+  [[nodiscard]] const MapWork& work() const { return work_; }
 
   /// For maps that come from a store or a file: forgets everything and puts the window's lower left
   /// corner there; then `restore` what is known, then `mark_all_stale`, then `repair`.
@@ -91,8 +101,9 @@ class RollingMapCore {
 
  private:
   [[nodiscard]] std::size_t index_of(int column, int row) const;
-  [[nodiscard]] bool mark_changed(std::size_t index);
-  void change(int column, int row, int delta);
+  [[nodiscard]] bool mark_changed(int index);
+  void touch_rows(int first, int last);
+  void hit_cell(int column, int row);
   /// A line within the window: its extents, and what a step adds to the index of a cell.
   struct Line {
     int longer;
@@ -103,8 +114,7 @@ class RollingMapCore {
   void clear_line(const Line& line, int index, int steps);
   void clear_cell(int index);
   void paint(int column, int row);
-  void mark_stale(int column, int row);
-  void recompute_tile(int tile_column, int tile_row);
+  void mark_stale(int index);
 
   MapConfig config_;
   GridWindow window_;
@@ -112,11 +122,12 @@ class RollingMapCore {
   float field_reach_m_ = 0.0F;
   float cells_per_m_ = 0.0F;
   std::array<std::uint8_t, kMaxFieldRadius * kMaxFieldRadius + 1>
-      byte_of_square_{};       // squared cells -> field byte
+      byte_of_square_{};   // squared cells -> field byte
   int first_changed_row_ = 0;  // of the current scan: what begin_scan has to forget
   int last_changed_row_ = -1;
   int stale_count_ = 0;
   std::size_t next_tile_ = 0;
+  MapWork work_{};
 };
 
 /// Storage: 2 bytes and 1 bit a cell, 1 byte a tile.

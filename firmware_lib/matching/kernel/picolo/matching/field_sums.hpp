@@ -5,7 +5,7 @@
 ///
 /// The order of summation is the contract: point k belongs to lane k mod 8, each lane sums its
 /// points in order, the lanes are folded by one fixed tree. A vector target walks 8 points at once,
-/// a scalar one may walk lane by lane: the bits are the same.
+/// a scalar one lane by lane: the bits are the same.
 #pragma once
 
 #include <array>
@@ -45,6 +45,19 @@ struct LaneSums {
       inside{}, inliers{}, squared_radius{};
 };
 
+inline FieldSums fold(const LaneSums& sums) {
+  return {fold(sums.xx),       fold(sums.xy),
+          fold(sums.xt),       fold(sums.yy),
+          fold(sums.yt),       fold(sums.tt),
+          fold(sums.bx),       fold(sums.by),
+          fold(sums.bt),       fold(sums.robust_squares),
+          fold(sums.residual), fold(sums.inside),
+          fold(sums.inliers),  fold(sums.squared_radius)};
+}
+
+/// Of a unit vector along a surface in steps of 1 / 127.
+inline constexpr float kPerSquaredStep = 1.0F / (127.0F * 127.0F);
+
 /// Eight points; without surfaces `along_x` and `along_y` are not read.
 struct EightPoints {
   const float* x_m;
@@ -78,13 +91,12 @@ inline void add_lanes(const Field& field, const FieldWalk& walk, const EightPoin
   if constexpr (WithSurfaces) {
     // Along its own surface a point moves freely: what the field's slope says there is the pattern
     // of single hits, not the wall.
-    constexpr float kPerSquare = 1.0F / (127.0F * 127.0F);
     for (std::size_t l = 0; l < kLanes; ++l) {
       const auto x = static_cast<float>(points.along_x[l]);
       const auto y = static_cast<float>(points.along_y[l]);
       const float along_x = walk.cosine * x - walk.sine * y;
       const float along_y = walk.sine * x + walk.cosine * y;
-      const float along = kPerSquare * (slope_x[l] * along_x + slope_y[l] * along_y);
+      const float along = kPerSquaredStep * (slope_x[l] * along_x + slope_y[l] * along_y);
       slope_x[l] -= along * along_x;
       slope_y[l] -= along * along_y;
     }
@@ -142,20 +154,91 @@ inline FieldSums walk_lanes(const Field& field, const FieldWalk& walk, const Poi
     add_lanes<WithSurfaces>(field, walk, {x_m.data(), y_m.data(), along_x.data(), along_y.data()},
                             sums);
   }
-  return {fold(sums.xx),       fold(sums.xy),
-          fold(sums.xt),       fold(sums.yy),
-          fold(sums.yt),       fold(sums.tt),
-          fold(sums.bx),       fold(sums.by),
-          fold(sums.bt),       fold(sums.robust_squares),
-          fold(sums.residual), fold(sums.inside),
-          fold(sums.inliers),  fold(sums.squared_radius)};
+  return fold(sums);
 }
+
+/// The same sums, one lane after the other: for processors without vectors, whose registers hold
+/// the sums of one lane. A point outside adds nothing, so it may be left out.
+template <bool WithSurfaces, typename Field>
+inline FieldSums walk_points(const Field& field, const FieldWalk& walk, const PointsView& points) {
+  LaneSums sums;
+  for (std::size_t l = 0; l < kLanes; ++l) {
+    FieldSums sum;
+    for (std::size_t k = l; k < points.size(); k += kLanes) {
+      const float x_m = points.x_m[k];
+      const float y_m = points.y_m[k];
+      const float arm_x = walk.cosine * x_m - walk.sine * y_m;
+      const float arm_y = walk.sine * x_m + walk.cosine * y_m;
+      const FieldSample at = sample(field, arm_x + walk.x_m, arm_y + walk.y_m);
+      if (!(at.inside > 0.0F)) { continue; }
+      float slope_x = at.slope_x_per_m;
+      float slope_y = at.slope_y_per_m;
+      if constexpr (WithSurfaces) {
+        const auto x = static_cast<float>(points.along_x[k]);
+        const auto y = static_cast<float>(points.along_y[k]);
+        const float along_x = walk.cosine * x - walk.sine * y;
+        const float along_y = walk.sine * x + walk.cosine * y;
+        const float along = kPerSquaredStep * (slope_x * along_x + slope_y * along_y);
+        slope_x -= along * along_x;
+        slope_y -= along * along_y;
+      }
+      const float slope_t = slope_y * arm_x - slope_x * arm_y;
+      const float residual = 1.0F - at.value;
+      const float weight = 1.0F / (1.0F + residual * residual * walk.inverse_kernel_squared);
+      const float wx = weight * slope_x;
+      const float wy = weight * slope_y;
+      const float wt = weight * slope_t;
+      sum.xx += wx * slope_x;
+      sum.xy += wx * slope_y;
+      sum.xt += wx * slope_t;
+      sum.yy += wy * slope_y;
+      sum.yt += wy * slope_t;
+      sum.tt += wt * slope_t;
+      sum.bx += wx * residual;
+      sum.by += wy * residual;
+      sum.bt += wt * residual;
+      sum.robust_squares += weight * residual * residual;
+      sum.residual += residual;
+      sum.inside += 1.0F;
+      sum.inliers += residual <= walk.inlier_residual ? 1.0F : 0.0F;
+      sum.squared_radius += arm_x * arm_x + arm_y * arm_y;
+    }
+    sums.xx[l] = sum.xx;
+    sums.xy[l] = sum.xy;
+    sums.xt[l] = sum.xt;
+    sums.yy[l] = sum.yy;
+    sums.yt[l] = sum.yt;
+    sums.tt[l] = sum.tt;
+    sums.bx[l] = sum.bx;
+    sums.by[l] = sum.by;
+    sums.bt[l] = sum.bt;
+    sums.robust_squares[l] = sum.robust_squares;
+    sums.residual[l] = sum.residual;
+    sums.inside[l] = sum.inside;
+    sums.inliers[l] = sum.inliers;
+    sums.squared_radius[l] = sum.squared_radius;
+  }
+  return fold(sums);
+}
+
+/// Has the target no vectors of floats? Cortex-M.
+#if defined(__arm__) && !defined(__ARM_NEON)
+inline constexpr bool kWalksPointByPoint = true;
+#else
+inline constexpr bool kWalksPointByPoint = false;
+#endif
 
 template <typename Field>
 inline FieldSums walk_field(const Field& field, const FieldWalk& walk, const PointsView& points) {
-  return points.along_x.size() == points.size() && points.along_y.size() == points.size()
-             ? walk_lanes<true>(field, walk, points)
-             : walk_lanes<false>(field, walk, points);
+  const bool surfaces =
+      points.along_x.size() == points.size() && points.along_y.size() == points.size();
+  if constexpr (kWalksPointByPoint) {
+    return surfaces ? walk_points<true>(field, walk, points)
+                    : walk_points<false>(field, walk, points);
+  } else {
+    return surfaces ? walk_lanes<true>(field, walk, points)
+                    : walk_lanes<false>(field, walk, points);
+  }
 }
 
 }  // namespace picolo::inline v0

@@ -59,7 +59,7 @@ lint_row() {
   fi
 }
 
-# Presets whose images the group `target` runs; in the short run the first one only.
+# Presets whose images the group `target` runs, every platform of the one hash; in the short run the first one only.
 image_presets=(target-m7 target-m4f target-m55 target-a53 target-aarch64
   image-gcc-O0 image-gcc-O2 image-gcc-O3 image-gcc-avx2
   image-clang-O0 image-clang-O2 image-clang-O3 image-clang-avx2)
@@ -101,17 +101,7 @@ short_groups() {
     say "run: no ARM compiler or no QEMU (see build/arm-packages.log): the group target is skipped"
     export PICOLO_TARGETS=none
   fi
-  ctest_rows host-release "" --label-exclude '(^|-)(slow|fuzz)$'
-}
-
-# Every platform of the one hash.
-target_groups() {
-  if ! (need_packages "${packages_arm[@]}" "${packages_targets[@]}") || ! has_arm; then
-    record "target every-platform" packages skipped 0 "packages for ARM could not be installed"
-    return 0
-  fi
-  build_images "${image_presets[@]}"
-  ctest_rows host-release " every-platform" --label-regex '^target$'
+  ctest_rows host-release "" --label-exclude '(^|-)slow$'
 }
 
 # Executions, seconds and executions a second of every target, as they are printed by tests/fuzz/run_target.
@@ -122,13 +112,20 @@ fuzz_groups() {
 }
 
 long_groups() {
+  if (need_packages "${packages_arm[@]}" "${packages_targets[@]}") && has_arm; then
+    build_images "${image_presets[@]}"
+    ctest_rows host-release " every-platform" --label-regex '^target$'
+  else
+    record "target every-platform" packages skipped 0 "packages for ARM could not be installed"
+  fi
   ctest_rows host-release " slow" --label-regex '(^|-)slow$'
   local builds=(host-release)
   if build_row host-debug; then
     builds+=(host-debug)
-    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
+    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow$'
   fi
   compare_builds "${builds[@]}"
+  fuzz_groups '^fuzz$'
 }
 
 compare_builds() {
@@ -136,22 +133,21 @@ compare_builds() {
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "$@" >>"$records"
 }
 
-# Hours: the other compiler, AVX2, every platform, the sanitizers, fuzzing, lint.
+# Hours: the other compiler, AVX2, the sanitizers, ten times the fuzzing, lint.
 campaign_groups() {
   local builds=(host-release)
   if build_row host-clang; then
     builds+=(host-clang)
-    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
+    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow$'
   fi
   if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
   compare_builds "${builds[@]}"
-  target_groups
   if build_row host-asan; then
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
-      --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)(slow|fuzz)$'
+      --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)slow$'
   fi
-  fuzz_groups '^(fuzz|fuzz_long)$'
+  fuzz_groups '^fuzz_long$'
   lint_row
 }
 

@@ -62,7 +62,7 @@ bool read_packet(int file, std::size_t& size) {
 
 template <Profile P>
 void tell_size() {
-  using Type = LockstepController<P>::Type;
+  using Type = typename LockstepController<P>::Type;
   platform::write(P::kName);
   platform::write(" ");
   platform::write_decimal(sizeof(Type) + sizeof(CanopenWheels) + sizeof(Ld06) + sizeof(WitMotion) +

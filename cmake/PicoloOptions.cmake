@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: picolo contributors
 # SPDX-License-Identifier: Apache-2.0
-# Two interface targets carry every compiler switch of the project:
+# Interface targets carry every compiler switch of the project:
 #   picolo_numbers   what makes the bits equal on every platform; public, travels with libpicolo.a
+#   picolo_unfused   what they need beyond that inside the library; private
 #   picolo_warnings  what keeps our own code clean; private
 
 set(PICOLO_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,undefined")
@@ -14,6 +15,12 @@ add_library(picolo_numbers INTERFACE)
 target_compile_features(picolo_numbers INTERFACE cxx_std_20)
 target_compile_options(picolo_numbers INTERFACE -ffp-contract=off -fno-math-errno)
 target_compile_definitions(picolo_numbers INTERFACE EIGEN_DONT_VECTORIZE EIGEN_NO_IO EIGEN_NO_MALLOC)
+
+# gcc's vectoriser forms vfmaddsub in spite of -ffp-contract=off. Does not travel: a customer's Eigen may want FMA.
+add_library(picolo_unfused INTERFACE)
+if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|i.86")
+  target_compile_options(picolo_unfused INTERFACE -mno-fma)
+endif()
 
 # The same bits as without, several times as fast on x86-64 of 2013 and later. Never with FMA: it rounds once where others round twice.
 option(PICOLO_AVX2 "Build the matching kernels with AVX2 instructions" OFF)
@@ -65,7 +72,7 @@ function(picolo_module name)
   endif()
   add_library(picolo_${name} OBJECT ${sources})
   target_include_directories(picolo_${name} PRIVATE ${CMAKE_CURRENT_SOURCE_DIR}/${name})
-  target_link_libraries(picolo_${name} PRIVATE picolo_${name}_api picolo_warnings picolo_firmware)
+  target_link_libraries(picolo_${name} PRIVATE picolo_${name}_api picolo_unfused picolo_warnings picolo_firmware)
   if(PICOLO_AVX2 AND name STREQUAL "matching")
     target_compile_options(picolo_${name} PRIVATE -mavx2 -mno-fma)
     target_compile_definitions(picolo_${name} PRIVATE PICOLO_AVX2)
@@ -83,5 +90,6 @@ function(picolo_package name)
   add_library(picolo_${name} STATIC ${ARG_SOURCES})
   add_library(picolo::${name} ALIAS picolo_${name})
   target_include_directories(picolo_${name} PUBLIC $<BUILD_INTERFACE:${CMAKE_CURRENT_SOURCE_DIR}/include>)
-  target_link_libraries(picolo_${name} PUBLIC picolo_numbers ${ARG_DEPENDS} PRIVATE $<BUILD_INTERFACE:picolo_warnings>)
+  target_link_libraries(picolo_${name} PUBLIC picolo_numbers ${ARG_DEPENDS}
+    PRIVATE $<BUILD_INTERFACE:picolo_unfused> $<BUILD_INTERFACE:picolo_warnings>)
 endfunction()

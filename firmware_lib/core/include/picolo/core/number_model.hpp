@@ -13,6 +13,10 @@
 #error "picolo: -ffast-math breaks the promise of equal bits everywhere; remove the flag"
 #endif
 
+#if defined(__FMA__) && defined(__GNUC__) && !defined(__clang__)
+#error "picolo: gcc fuses multiply and add in vectors even with -ffp-contract=off; add -mno-fma"
+#endif
+
 static_assert(FLT_EVAL_METHOD == 0,
               "picolo needs float arithmetic in float precision (SSE2, VFP, NEON)");
 static_assert(std::numeric_limits<float>::is_iec559 && sizeof(float) == 4,

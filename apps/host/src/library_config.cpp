@@ -91,6 +91,7 @@ void read_heading(ConfigFile& file, const std::string& section, HeadingCorrectio
 void read_surface(ConfigFile& file, const std::string& section, SurfaceConfig& surface) {
   file.read(section, "reach_m", surface.reach_m);
   file.read(section, "max_neighbours", surface.max_neighbours);
+  file.read(section, "sparse_m", surface.sparse_m);
   file.read(section, "max_offset_m", surface.max_offset_m);
   file.read(section, "min_cosine", surface.min_cosine);
 }

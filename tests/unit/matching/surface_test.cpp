@@ -47,8 +47,8 @@ TEST(Surface, FollowsAWallHoweverDenseItsPoints) {
       EXPECT_NEAR(along.x[k], 127.0 * std::cos(0.7), 0.6) << spacing_m << " m, point " << k;
       EXPECT_NEAR(along.y[k], 127.0 * std::sin(0.7), 0.6);
     }
-    EXPECT_FALSE(along.known(0)) << "no neighbour before it";
-    EXPECT_FALSE(along.known(39));
+    EXPECT_EQ(along.known(0), spacing_m >= 0.6) << "a dense wall ends here, a sparse one anywhere";
+    EXPECT_EQ(along.known(39), spacing_m >= 0.6);
   }
 }
 
@@ -87,6 +87,15 @@ TEST(Surface, IsUnknownAtCornersEdgesAndSingleThings) {
     scattered.add(x, y);
   }
   for (std::size_t k = 0; k < 5; ++k) { EXPECT_FALSE(scattered.directions().known(k)); }
+}
+
+TEST(Surface, APoleBetweenSparseHitsHasNone) {
+  Points points;
+  for (int k = 0; k < 6; ++k) { points.add(0.8 * k, 3.0); }
+  points.add(4.4, 1.0);
+  for (int k = 6; k < 12; ++k) { points.add(0.8 * k, 3.0); }
+  const Directions along = points.directions();
+  for (std::size_t k = 0; k < 13; ++k) { EXPECT_EQ(along.known(k), k != 6) << k; }
 }
 
 TEST(Surface, OfFewPointsOrSmallStorageIsNoTrouble) {

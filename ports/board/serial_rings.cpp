@@ -13,6 +13,7 @@ std::uint32_t low_word(Timestamp stamp) {
 }  // namespace
 
 void SerialRings::received(std::uint8_t byte, Timestamp now) {
+  arrived_ = arrived_ + 1;
   (void)received_.push((low_word(now) << 8) | byte);  // counts what it refuses
 }
 

@@ -53,16 +53,17 @@ void FrameTimer::start(Duration period) {
   reg(kSysTickControl) = 7;  // the processor's clock, interrupt, on
 }
 
-void FrameTimer::wait() {
-  while (true) {
-    {
-      // Locked, so that no tick slips in between the look and the sleep; WFI wakes all the same.
-      const InterruptLock lock;
-      if (ticks_ != seen_) { break; }
-      __asm__ volatile("wfi" ::: "memory");
-    }
-  }
-  seen_ = ticks_;
+bool FrameTimer::take() {
+  const std::uint32_t ticks = ticks_;
+  const bool came = ticks != taken_;
+  taken_ = ticks;
+  return came;
+}
+
+void FrameTimer::rest() const {
+  // Locked, so that no tick slips in between the look and the sleep; WFI wakes all the same.
+  const InterruptLock lock;
+  if (ticks_ == taken_) { __asm__ volatile("wfi" ::: "memory"); }
 }
 
 }  // namespace picolo::inline v0::mps2

@@ -24,6 +24,7 @@ Mps2Board::Mps2Board(const BoardConfig& config)
       can(kUarts[0], clock, config.can_baud),
       lidar(kUarts[1], clock, config.lidar_baud),
       imu(kUarts[2], clock, config.imu_baud),
+      pace(clock),
       store(g_store, kStoreSector) {
   g_board = this;
 }
@@ -34,8 +35,13 @@ void Mps2Board::start(Duration minor_frame) {
   frame_timer.start(minor_frame);
 }
 
+std::uint32_t Mps2Board::bytes_arrived() const {
+  return can.arrived() + lidar.arrived() + imu.arrived();
+}
+
 void Mps2Board::on_interrupt(unsigned number) {
-  if (number == PulseOutput::kInterrupt) { pulse.on_timer(); }
+  if (number == HostPace::kTimerInterrupt) { pace.on_timer(); }
+  if (number == HostPace::kAnswerInterrupt) { pace.on_answer(); }
   for (CmsdkUart* uart : {&can, &lidar, &imu}) {
     if (number == uart->place().receive_interrupt) { uart->on_receive(); }
     if (number == uart->place().receive_interrupt + 1) { uart->on_sent(); }

@@ -2,8 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The whole robot on real devices: UART, SysTick, watchdog. Words: how many seconds to run (0: for
-// ever), after how many milliseconds the clock's 32-bit counter wraps, and `hang` to stop the cycle
-// after the first second. Figures at the end go to the debugger.
+// ever), after how many milliseconds the clock's 32-bit counter wraps, then `paced` where
+// a host plays the world (HostPace), or `hang` to stop the cycle after the first second. Figures at
+// the end go to the debugger.
 
 #include <cstring>
 #include <new>
@@ -38,10 +39,10 @@ std::uint32_t number(std::size_t word) {
   return value;
 }
 
-bool asked_to_hang() {
+bool asked_to(const char* word) {
   char text[8];
   platform::argument(2, text);
-  return std::strcmp(text, "hang") == 0;
+  return std::strcmp(text, word) == 0;
 }
 
 void tell(const char* name, std::uint64_t value) {
@@ -59,7 +60,11 @@ void tell_figures(const FreeRunningRobot& robot, const mps2::Mps2Board& board) {
   tell("late_ends", frames.late_ends);
   tell("worst_lateness_us", static_cast<std::uint64_t>(frames.worst_lateness.count()));
   tell("strokes", frames.strokes);
-  tell("overruns", robot.controller().schedule().overruns());
+  const Schedule& schedule = robot.controller().schedule();
+  for (std::size_t task = 0; task < schedule.size(); ++task) {
+    platform::write("overruns_");
+    tell(schedule.entry(task).name, schedule.counters(task).overruns);
+  }
   tell("lost_can", board.can.lost());
   tell("lost_lidar", board.lidar.lost());
   tell("lost_imu", board.imu.lost());
@@ -71,6 +76,7 @@ void tell_figures(const FreeRunningRobot& robot, const mps2::Mps2Board& board) {
   tell("frames_sent", robot.controller().reporter().sent());
   tell("frames_refused", robot.controller().reporter().refused());
   tell("matches", robot.controller().estimate().matches);
+  tell("reason", static_cast<std::uint64_t>(robot.controller().estimate().reason));
   tell("state", static_cast<std::uint64_t>(robot.controller().estimate().state));
 }
 
@@ -81,19 +87,28 @@ int run() {
   if (survived && g_survivor.barks > 0) {
     tell("barks", g_survivor.barks);
     tell("events", g_survivor.events.attach() ? g_survivor.events.total() : 0);
+    tell("store_survived", (new (g_board) mps2::Mps2Board({}))->store.survived() ? 1 : 0);
     return 0;
   }
   const std::uint32_t seconds = number(0);
   const std::uint32_t wrap_ticks = number(1) * 1000 * mps2::kTicksPerUs;
-  const bool hangs = asked_to_hang();
+  const bool hangs = asked_to("hang");
+  const bool paced = asked_to("paced");
   auto& board = *new (g_board) mps2::Mps2Board({.first_count = 0U - wrap_ticks});
   auto& robot = *new (g_robot) FreeRunningRobot(board, g_survivor.events);
   board.start(5ms);
-  board.pulse.start();
-  board.frame_timer.wait();
+  if (paced) { board.pace.start(); }
   if (!is_ok(robot.start())) { return 1; }
   board.watchdog.start(kWatchdogPeriod);
+  robot.run_frame();  // the first is released at once, the others with each tick
   while (seconds == 0 || board.frame_timer.ticks() < seconds * 200) {
+    while (!board.frame_timer.take()) {
+      if (paced && !board.pace.level(board.bytes_arrived())) {
+        platform::pause();
+      } else {
+        board.frame_timer.rest();
+      }
+    }
     robot.run_frame();
     while (hangs && board.frame_timer.ticks() > 200) {}
   }

@@ -54,6 +54,8 @@ std::uint32_t ticks() {
   return 0;
 }
 
+void pause() {}
+
 void leave(int status) {
   std::exit(status);
 }

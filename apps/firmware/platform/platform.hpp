@@ -29,6 +29,8 @@ bool write_file(int file, std::span<const std::uint8_t> bytes);
 /// A free-running counter: 25 MHz on Cortex-M boards, 62.5 MHz on the zcu102, standing still on
 /// hosts.
 std::uint32_t ticks();
+/// Lets the emulator work while next to no time passes on the board.
+void pause();
 /// Ends the program or the machine.
 [[noreturn]] void leave(int status);
 

@@ -96,6 +96,7 @@ TEST(SerialRings, CountWhatDidNotFitAndWhatTheHardwareLost) {
   for (std::uint32_t i = 0; i < SerialRings::kReceive + 5; ++i) { uart.rings.received(0, {}); }
   uart.rings.overrun();
   EXPECT_EQ(uart.lost(), 6U);
+  EXPECT_EQ(uart.rings.arrived(), SerialRings::kReceive + 5);
 }
 
 struct Memory {

@@ -8,8 +8,6 @@
 
 #include <filesystem>
 #include <iostream>
-#include <map>
-#include <sstream>
 
 #include "picolo/localisation/pose_estimate.hpp"
 #include "platforms.hpp"
@@ -35,20 +33,6 @@ TEST(Devices, OfEveryBoardKeepTheContractsOfHal) {
     EXPECT_NE(outcome.output.find("CanBus: "), std::string::npos) << outcome.output;
     std::cout << platform.name << "\n" << outcome.output;
   }
-}
-
-using Figures = std::map<std::string, std::int64_t>;
-
-Figures figures_in(const std::string& text) {
-  Figures figures;
-  std::istringstream lines(text);
-  for (std::string line; std::getline(lines, line);) {
-    std::istringstream words(line);
-    std::string name;
-    std::int64_t value = 0;
-    if (words >> name >> value) { figures[name] = value; }
-  }
-  return figures;
 }
 
 void print(const Platform& platform, const Figures& found) {

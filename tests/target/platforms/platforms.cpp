@@ -9,6 +9,7 @@
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 
 #include "support/data.hpp"
 
@@ -80,6 +81,18 @@ std::string nothing_to_judge() {
 
 bool required() {
   return test::group_is_required("arm");
+}
+
+Figures figures_in(const std::string& text) {
+  Figures figures;
+  std::istringstream lines(text);
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream words(line);
+    std::string name;
+    std::int64_t value = 0;
+    if (words >> name >> value) { figures[name] = value; }
+  }
+  return figures;
 }
 
 Outcome run(const std::string& command) {

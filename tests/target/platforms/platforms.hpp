@@ -5,7 +5,9 @@
 /// programs.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,10 @@ struct Outcome {
   std::string output;
   double seconds = 0.0;
 };
+
+/// What an image tells as lines of a name and a number.
+using Figures = std::map<std::string, std::int64_t>;
+Figures figures_in(const std::string& text);
 
 /// Runs a command and keeps what it says on both outputs.
 Outcome run(const std::string& command);

@@ -34,14 +34,17 @@ class SerialRings {
   /// `full`: none was taken.
   Result<std::size_t> write(std::span<const std::uint8_t> bytes);
   [[nodiscard]] std::uint32_t lost() const { return received_.dropped() + overruns_; }
-  [[nodiscard]] bool idle() const { return to_send_.size() == 0; }
+  /// Bytes received, those that did not fit included; modulo 2^32.
+  [[nodiscard]] std::uint32_t arrived() const { return arrived_; }
 
  private:
   static constexpr std::uint32_t kStampMask = 0xFF'FFFF;
 
   SpscRing<std::uint32_t, kReceive> received_{};  // low 24 bits of the stamp, then the byte
   SpscRing<std::uint8_t, kSend> to_send_{};
-  volatile std::uint32_t overruns_ = 0;  // one writer, one word: never seen torn
+  // One writer each, one word each: never seen torn.
+  volatile std::uint32_t arrived_ = 0;
+  volatile std::uint32_t overruns_ = 0;
 };
 
 }  // namespace picolo::inline v0::board

@@ -40,13 +40,15 @@ class FrameTimer {
   void start(Duration period);
   /// From the SysTick interrupt.
   void tick() { ticks_ = ticks_ + 1; }
-  /// Sleeps until a tick came since the last call; returns at once when one has come already.
-  void wait();
+  /// True when a tick came since the last call.
+  [[nodiscard]] bool take();
+  /// Sleeps until any interrupt, unless a tick waits to be taken.
+  void rest() const;
   [[nodiscard]] std::uint32_t ticks() const { return ticks_; }
 
  private:
   volatile std::uint32_t ticks_ = 0;
-  std::uint32_t seen_ = 0;
+  std::uint32_t taken_ = 0;
 };
 
 }  // namespace picolo::inline v0::mps2

@@ -43,6 +43,8 @@ class CmsdkUart final : public SerialPort {
   Result<std::size_t> write(std::span<const std::uint8_t> bytes) override;
   [[nodiscard]] std::uint32_t baud() const override { return baud_; }
   [[nodiscard]] std::uint32_t lost() const override { return rings_.lost(); }
+  /// Bytes, lost ones included, modulo 2^32.
+  [[nodiscard]] std::uint32_t arrived() const { return rings_.arrived(); }
 
   /// From the interrupts of this UART, and from the shared one.
   void on_receive();

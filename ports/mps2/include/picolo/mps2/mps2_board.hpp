@@ -11,7 +11,7 @@
 #include "picolo/mps2/board_clock.hpp"
 #include "picolo/mps2/cmsdk_uart.hpp"
 #include "picolo/mps2/cmsdk_watchdog.hpp"
-#include "picolo/mps2/pulse_output.hpp"
+#include "picolo/mps2/host_pace.hpp"
 
 namespace picolo::inline v0::mps2 {
 
@@ -36,6 +36,8 @@ class Mps2Board {
 
   /// Bytes arrive and SysTick ticks from then on.
   void start(Duration minor_frame);
+  /// Bytes on all UARTs of the robot, modulo 2^32.
+  [[nodiscard]] std::uint32_t bytes_arrived() const;
   /// Does what an external interrupt asks for.
   void on_interrupt(unsigned number);
 
@@ -46,7 +48,7 @@ class Mps2Board {
   CmsdkUart lidar;
   CmsdkUart imu;
   CmsdkWatchdog watchdog{};
-  PulseOutput pulse{};
+  HostPace pace;
   board::MemoryByteStore store;
 };
 

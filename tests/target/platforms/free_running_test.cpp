@@ -1,0 +1,90 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// The whole robot on a board that runs by its own clock: bytes through UARTs and their interrupts,
+// CAN through a UART, cycles by SysTick. Judged by its error to the truth and by counters.
+
+#include <gtest/gtest.h>
+
+#include <iostream>
+
+#include "free_drive.hpp"
+#include "picolo/localisation/pose_estimate.hpp"
+
+namespace picolo::target {
+namespace {
+
+/// Of all tasks.
+std::int64_t overruns_in(const Figures& figures) {
+  std::int64_t sum = 0;
+  for (const auto& [name, value] : figures) { sum += name.starts_with("overruns_") ? value : 0; }
+  return sum;
+}
+
+std::vector<Platform> boards_with_devices() {
+  std::vector<Platform> boards = platforms_to_judge();
+  std::erase_if(boards, [](const Platform& platform) {
+    return !std::filesystem::exists(image(platform, "free_running"));
+  });
+  return boards;
+}
+
+TEST(FreeRunning, ABoardDrivesByItsOwnClock) {
+  PICOLO_NEED_IMAGES();
+  const FreeDrivePlan plan{.asks = {{.kind = CommandKind::start_calibration, .counter = 1},
+                                    {.kind = CommandKind::abort_calibration, .counter = 2}}};
+  std::cout << "| board | cycles | slipped | overruns | worst lateness | bytes lost | matches | "
+               "pose frames | worst error |\n|---|---|---|---|---|---|---|---|---|\n";
+  for (const Platform& platform : boards_with_devices()) {
+    SCOPED_TRACE(platform.name);
+    FreeDrive drive = drive_freely(platform, plan);
+    auto& figures = drive.figures;
+    for (const auto& [n, v] : figures) {
+      if (v > 0 && n.starts_with("overruns_")) std::cout << n << "=" << v << " ";
+    }
+    const std::int64_t lost = figures["lost_can"] + figures["lost_lidar"] + figures["lost_imu"];
+    std::cout << "| " << platform.name << " | " << figures["frames"] << " | " << figures["slipped"]
+              << " | " << overruns_in(figures) << " | " << figures["worst_lateness_us"] << " us | "
+              << lost << " | " << figures["matches"] << " | " << drive.poses << " | "
+              << drive.worst_error_m << " m |\n";
+    ASSERT_EQ(drive.trouble, "");
+    EXPECT_EQ(lost, 0);
+    EXPECT_EQ(figures["malformed_lines"], 0);
+    EXPECT_EQ(drive.damaged_lines, 0U);
+    EXPECT_EQ(figures["bad_checksums"], 0);
+    EXPECT_EQ(figures["frames_refused"], 0);
+    // Every cycle, in spite of the wrap of the clock's counter.
+    EXPECT_GE(figures["frames"], plan.seconds * 200);
+    EXPECT_EQ(figures["slipped"], 0);
+    EXPECT_EQ(figures["late_ends"], 0);
+    EXPECT_EQ(overruns_in(figures), 0);
+    EXPECT_GE(figures["matches"], plan.seconds * 10 - 3);
+    EXPECT_GE(figures["strokes"], plan.seconds * 10 - 1);
+    EXPECT_GT(figures["readings"], plan.seconds * 4400);
+    EXPECT_GT(figures["imu_samples"], plan.seconds * 98);
+    EXPECT_GT(figures["ticks"], plan.seconds * 95);
+    EXPECT_GE(drive.poses, static_cast<std::uint32_t>(plan.seconds) * 39);
+    EXPECT_EQ(figures["state"], static_cast<int>(HealthState::tracking));
+    EXPECT_GT(drive.driven_m, 0.5);
+    EXPECT_LT(drive.worst_error_m, 0.05);
+    // The calibration routine is reached over CAN.
+    EXPECT_EQ(drive.answers, (std::vector{CommandResult::done, CommandResult::done}));
+    EXPECT_GT(drive.calibration_frames, 0U);
+  }
+}
+
+TEST(FreeRunning, TheWatchdogResetsABoardWhoseCycleHangs) {
+  PICOLO_NEED_IMAGES();
+  for (const Platform& platform : boards_with_devices()) {
+    const Outcome outcome =
+        run(platform, "free_running", {"3", "1", "hang"}, "-icount shift=1,sleep=off");
+    EXPECT_EQ(outcome.status, 0) << platform.name;
+    // Told after the reset: its NMI came first, events and flash have survived.
+    EXPECT_NE(outcome.output.find("barks 1\n"), std::string::npos) << outcome.output;
+    EXPECT_EQ(outcome.output.find("events 0"), std::string::npos) << outcome.output;
+    EXPECT_NE(outcome.output.find("store_survived 1\n"), std::string::npos) << outcome.output;
+  }
+}
+
+}  // namespace
+}  // namespace picolo::target

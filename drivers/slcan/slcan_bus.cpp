@@ -140,6 +140,7 @@ Result<CanFrame> SlcanBus::take_line() {
     ++status_.rx_lost;
   } else {
     refusals_in_a_row_ = 0;
+    counters_.answers += frame ? 0U : 1U;
   }
   return frame;
 }

@@ -84,7 +84,7 @@ void add_doctor(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command =
       app.add_subcommand("doctor", "Looks at bus and lines, says what is wrong and how to cure it");
-  command->add_option("--can", options->can, "CAN interface")->type_name("IF");
+  command->add_option("--can", options->can, "CAN interface, or slcan:TTY")->type_name("IF");
   command->add_option("--lidar", options->lidar, "Serial line of the lidar")->type_name("TTY");
   command->add_option("--imu", options->imu, "Serial line of the IMU")->type_name("TTY");
   command->add_option("--config", options->config, "TOML file that describes the vehicle")

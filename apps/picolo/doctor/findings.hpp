@@ -30,6 +30,8 @@ struct CanFacts {
   bool may_open = true;
   bool is_can = true;
   bool is_up = true;
+  bool is_adapter = false;  ///< SLCAN on a serial line
+  bool answers = true;      ///< the adapter answered
   bool is_virtual = false;  ///< vcan or a socket: no bit rate, no acknowledgement
   std::optional<std::uint32_t> bit_rate;
   std::optional<std::uint32_t> restart_ms;

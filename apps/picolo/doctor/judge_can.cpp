@@ -60,6 +60,14 @@ bool judge_interface(const CanFacts& facts, Findings& findings) {
     findings.push_back({Level::fault, "this kernel has no CAN",
                         "sudo modprobe can can-raw (and the driver of the adapter, or vcan); in a "
                         "container load them on its host"});
+  } else if (!facts.exists && facts.is_adapter) {
+    findings.push_back({Level::fault, "there is no such line",
+                        "is the adapter plugged in? ls /dev/serial/by-id lists them"});
+  } else if (!facts.answers) {
+    findings.push_back(
+        {Level::fault, "nobody answers on this line",
+         "an adapter behind a UART has one rate: try slcan:TTY,500000,115200. Is its firmware "
+         "SLCAN? One that shows up as an interface (ip -br link) is used by that name"});
   } else if (!facts.exists) {
     findings.push_back(
         {Level::fault, "there is no such interface",

@@ -22,6 +22,7 @@
 
 #include "doctor/link_details.hpp"
 #include "doctor/probe.hpp"
+#include "live/can_line.hpp"
 #include "picolo/drivers/canopen/cob_id.hpp"
 #include "picolo/host/error.hpp"
 #include "picolo/linux/file_descriptor.hpp"
@@ -78,13 +79,17 @@ FileDescriptor open_interface(const std::string& name, CanFacts& facts) {
 }
 
 /// Each node is asked for its type: whoever lives answers, be it with "no such object".
+CanFrame question_to(int node) {
+  return {.id = 0x600 + static_cast<std::uint32_t>(node), .length = 8, .data = {0x40, 0x00, 0x10}};
+}
+
 void ask_nodes(int fd, CanFacts& facts) {
   for (const int node : facts.wanted_nodes) {
+    const CanFrame question = question_to(node);
     can_frame request{};
-    request.can_id = static_cast<canid_t>(0x600 + node);
-    request.can_dlc = 8;
-    request.data[0] = 0x40;
-    request.data[2] = 0x10;
+    request.can_id = question.id;
+    request.can_dlc = question.length;
+    std::copy(question.data.begin(), question.data.end(), request.data);
     facts.sent = facts.sent && ::send(fd, &request, sizeof request, MSG_DONTWAIT | MSG_NOSIGNAL) ==
                                    static_cast<ssize_t>(sizeof request);
   }
@@ -101,17 +106,16 @@ void note_error(const can_frame& frame, CanFacts& facts) {
   }
 }
 
-void note_frame(const can_frame& frame, std::uint32_t own_id, CanFacts& facts) {
+void note_frame(const CanFrame& frame, std::uint32_t own_id, CanFacts& facts) {
   ++facts.frames;
-  if ((frame.can_id & (CAN_EFF_FLAG | CAN_RTR_FLAG)) != 0) { return; }
-  const std::uint32_t id = frame.can_id & CAN_SFF_MASK;
-  if (id >= own_id && id < own_id + 16) { ++facts.foreign_talkers; }
-  const auto node = static_cast<int>(id & 0x7F);
+  if (frame.extended || frame.remote) { return; }
+  if (frame.id >= own_id && frame.id < own_id + 16) { ++facts.foreign_talkers; }
+  const auto node = static_cast<int>(frame.id & 0x7F);
   if (node == 0) { return; }
-  const std::uint32_t kind = id & 0x780;
+  const std::uint32_t kind = frame.id & 0x780;
   const bool is_sign_of_life = kind == 0x180 || kind == 0x580 || kind == 0x080;
   if (kind == 0x700) {
-    facts.heard_nodes[node] = frame.can_dlc > 0 ? frame.data[0] & 0x7F : -1;
+    facts.heard_nodes[node] = frame.length > 0 ? frame.data[0] & 0x7F : -1;
   } else if (is_sign_of_life) {
     facts.heard_nodes.try_emplace(node, -1);
   }
@@ -134,8 +138,7 @@ class WheelsListener {
         filters_(wheels_->filters()),
         heard_(filters_.size()) {}
 
-  void note(const can_frame& raw) {
-    const CanFrame frame = to_frame(raw);
+  void note(const CanFrame& frame) {
     for (std::size_t i = 0; i < filters_.size(); ++i) {
       heard_[i] = heard_[i] || filters_[i].accepts(frame.id, frame.extended);
     }
@@ -192,10 +195,34 @@ void listen(int fd, std::uint32_t own_id, WheelsListener& wheels, CanFacts& fact
     if ((frame.can_id & CAN_ERR_FLAG) != 0) {
       note_error(frame, facts);
     } else {
-      note_frame(frame, own_id, facts);
-      wheels.note(frame);
+      const CanFrame heard = to_frame(frame);
+      note_frame(heard, own_id, facts);
+      wheels.note(heard);
     }
   }
+}
+
+/// The same through a serial adapter.
+void probe_adapter(const std::string& name, std::uint32_t own_id, WheelsListener& wheels,
+                   CanFacts& facts) {
+  LinuxClock clock;
+  CanLine line{clock, name, CanLine::Role::second};
+  facts.is_adapter = true;
+  facts.is_virtual = true;
+  facts.exists = line.open();
+  if (!facts.exists) { return; }
+  for (const int node : facts.wanted_nodes) {
+    facts.sent = facts.sent && is_ok(line.transmit(question_to(node)));
+  }
+  for (const Timestamp end = clock.now() + Duration{kListen}; clock.now() < end;) {
+    while (const Result<CanFrame> frame = line.receive()) {
+      note_frame(*frame, own_id, facts);
+      wheels.note(*frame);
+    }
+    static_cast<void>(sleep_until(clock.now() + Duration{2'000}));
+  }
+  const SlcanCounters heard = line.adapter_counters();
+  facts.answers = facts.frames > 0 || heard.answers > 0 || heard.refused > 0;
 }
 
 }  // namespace
@@ -214,6 +241,12 @@ CanFacts probe_can(const std::string& name, const VehicleSettings& settings) {
       facts.wanted_nodes.push_back(node);
     }
   }
+  const std::uint32_t own_id = settings.controller.frames_out.base_id;
+  if (name.rfind("slcan:", 0) == 0) {
+    probe_adapter(name, own_id, wheels, facts);
+    wheels.tell(facts);
+    return facts;
+  }
   const bool is_socket = name.rfind("socket:", 0) == 0;
   const FileDescriptor socket =
       is_socket ? open_socket(name.substr(7), facts) : open_interface(name, facts);
@@ -221,7 +254,7 @@ CanFacts probe_can(const std::string& name, const VehicleSettings& settings) {
     return facts;
   }
   ask_nodes(socket.get(), facts);
-  listen(socket.get(), settings.controller.frames_out.base_id, wheels, facts);
+  listen(socket.get(), own_id, wheels, facts);
   wheels.tell(facts);
   return facts;
 }

@@ -29,6 +29,10 @@ class CanLine final : public CanBus {
   /// looked for again.
   bool open(std::span<const CanFilter> filters = {});
   [[nodiscard]] const std::string& name() const { return name_; }
+  /// Of a serial adapter; nothing has been counted on other buses.
+  [[nodiscard]] SlcanCounters adapter_counters() const {
+    return adapter_ ? adapter_->counters() : SlcanCounters{};
+  }
 
   Result<CanFrame> receive() override;
   Status transmit(const CanFrame& frame) override {

@@ -83,6 +83,8 @@ TEST(SlcanBus, TellsTheAdapterItsRateBeforeAnythingElse) {
   EXPECT_TRUE(wire.adapter.open);
   EXPECT_EQ(wire.adapter.rate, '5');
   EXPECT_TRUE(wire.drain().empty()) << "answers are no frames";
+  EXPECT_EQ(wire.slcan.counters().refused, 1U) << "to close what was not open";
+  EXPECT_EQ(wire.slcan.counters().answers, 3U);
 }
 
 TEST(SlcanBus, StampsAFrameWithTheBeginOfItsLine) {

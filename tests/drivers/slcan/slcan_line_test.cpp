@@ -4,10 +4,10 @@
 #include "picolo/drivers/slcan/slcan_line.hpp"
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
 
 #include <string>
 
+#include "support/property.hpp"
 #include "support/slcan_adapter.hpp"
 
 namespace picolo::slcan {

@@ -44,6 +44,29 @@ TEST(SlcanLive, TheControllerOpensAnAdapterAndTalksThroughIt) {
   EXPECT_GE(json.at("foreign_frames"), 5);
 }
 
+TEST(SlcanLive, DoctorTellsAnAdapterFromASilentLine) {
+  const test::TemporaryFolder folder;
+  const test::PlayedLine silent;
+  const test::ToolRun nobody = run_tool(folder, {"doctor", "--can", "slcan:" + silent.path()});
+  EXPECT_THAT(nobody.out, HasSubstr("nobody answers on this line"));
+
+  const test::PlayedLine line;
+  test::SlcanAdapter adapter;
+  test::Process doctor{folder, "doctor", {"doctor", "--can", "slcan:" + line.path()}};
+  std::array<std::uint8_t, 256> bytes{};
+  for (int i = 0; i < 3000 && adapter.frames.size() < 2; ++i) {
+    adapter.take(std::span{bytes}.first(line.take(bytes)));
+    // Node 1 answers the question for its type, node 2 does not.
+    const std::string text = adapter.answers + (adapter.open ? "t58184300100092010200\r" : "");
+    adapter.answers.clear();
+    line.send(std::vector<std::uint8_t>(text.begin(), text.end()));
+    ::usleep(10'000);
+  }
+  EXPECT_NE(doctor.wait(), 0);
+  EXPECT_THAT(doctor.out(), HasSubstr("node 1 is there"));
+  EXPECT_THAT(doctor.out(), HasSubstr("no node 2 on the bus"));
+}
+
 TEST(SlcanLive, ANameThatIsNoneIsExplained) {
   const test::TemporaryFolder folder;
   for (const char* name : {"slcan:", "slcan:tty,123456", "slcan:tty,500000,0", "slcan:tty,1,2,3"}) {

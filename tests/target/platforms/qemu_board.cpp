@@ -105,7 +105,11 @@ Outcome QemuBoard::finish() {
   Outcome outcome;
   if (pid_ <= 0) { return outcome; }
   int status = 0;
-  ::waitpid(pid_, &status, 0);
+  for (int i = 0; i < 1000 && ::waitpid(pid_, &status, WNOHANG) == 0; ++i) {
+    if (i == 999) { ::kill(pid_, SIGKILL); }
+    ::usleep(10'000);
+  }
+  static_cast<void>(::waitpid(pid_, &status, 0));  // the killed one
   pid_ = -1;
   outcome.status = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
   std::ostringstream text;

@@ -37,7 +37,7 @@ class QemuBoard {
   /// Bytes that QEMU's buffer has no room for are lost and counted.
   void send(std::size_t uart, std::span<const std::uint8_t> bytes);
   [[nodiscard]] std::size_t not_sent() const { return not_sent_; }
-  /// Waits for the end of the machine.
+  /// Waits for the end of the machine, 10 s at most.
   Outcome finish();
 
  private:

@@ -33,6 +33,7 @@ struct SlcanConfig {
 /// Never reset.
 struct SlcanCounters {
   std::uint32_t malformed = 0;  ///< lines that are none of the protocol
+  std::uint32_t answers = 0;    ///< to commands
   std::uint32_t refused = 0;    ///< commands that the adapter did not accept
   std::uint32_t opened = 0;     ///< how often the adapter was told its rate and to begin
 };

@@ -12,8 +12,8 @@
 
 namespace picolo::tool {
 
-/// An interface, slcan:TTY or socket:PATH. Asks each node for its type (SDO, object 0x1000) and listens for
-/// 1.2 s, longer than a heartbeat's usual period. Throws UserError (usage).
+/// An interface, slcan:TTY or socket:PATH. Asks each node for its type (SDO, object 0x1000) and
+/// listens for 1.2 s, longer than a heartbeat's usual period. Throws UserError (usage).
 [[nodiscard]] CanFacts probe_can(const std::string& name, const VehicleSettings& settings);
 
 /// Reads half a second at each rate, the configured one first; others only when that fails.

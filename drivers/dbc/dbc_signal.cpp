@@ -40,7 +40,7 @@ Result<std::uint64_t> dbc_raw(const DbcSignal& signal, ByteView data) {
   std::uint64_t value = 0;
   std::size_t bit = signal.start_bit;
   for (std::size_t i = 0; i < signal.length; ++i) {
-    const std::uint64_t one = (data[bit / 8] >> (bit % 8)) & 1U;
+    const std::uint64_t one = (std::uint64_t{data[bit / 8]} >> (bit % 8)) & 1U;
     if (signal.big_endian) {
       value = (value << 1U) | one;
       bit = bit % 8 == 0 ? bit + 15 : bit - 1;  // on to the next byte's most significant bit

@@ -6,7 +6,7 @@
 //   drive NAME [START]   one drive; START: microseconds on the clock at its beginning
 //   3d                   the 3D sequence
 //   arithmetic           + - * / and their kin on random operands
-//   log FILE             scans that a host wrote (tests/target/log_file.hpp)
+//   log FILE [TITLE]     sweeps that a host wrote (tests/target/platforms/one_hash_test.cpp)
 
 #include <cstring>
 #include <new>
@@ -112,7 +112,7 @@ class Words {
   int file_;
 };
 
-bool log(const char* path) {
+bool log(const char* path, const char* title) {
   const int file = platform::open_file(path);
   if (file < 0) { return false; }
   auto& localiser = only<Localiser<HallProfile>>();
@@ -138,7 +138,7 @@ bool log(const char* path) {
     hash.add(pose.theta_rad);
   }
   add_map(localiser.core().map(), hash);
-  return print("log ", path, hash.value(), !hash.poisoned());
+  return print("", title[0] == '\0' ? path : title, hash.value(), !hash.poisoned());
 }
 
 std::int64_t number(const char* text) {
@@ -153,10 +153,10 @@ bool run() {
 #endif
   char command[16];
   char name[160];
-  char start[24];
+  char last[40];
   platform::argument(0, command);
   platform::argument(1, name);
-  platform::argument(2, start);
+  platform::argument(2, last);
   const bool everything = command[0] == '\0';
   bool good = true;
   bool known = everything;
@@ -164,7 +164,7 @@ bool run() {
     for (const NamedScene& scene : kScenes) {
       if (!everything && std::strcmp(name, scene.name) != 0) { continue; }
       known = true;
-      good = drive(scene, Timestamp{Duration{number(start)}}) && good;
+      good = drive(scene, Timestamp{Duration{number(last)}}) && good;
     }
   }
   if (everything || std::strcmp(command, "3d") == 0) {
@@ -177,11 +177,12 @@ bool run() {
   }
   if (std::strcmp(command, "log") == 0) {
     known = true;
-    good = log(name) && good;
+    good = log(name, last) && good;
   }
   if (!known) {
     platform::write(
-        "usage: [drive office|corridor|hall [START]] | [3d] | [arithmetic] | [log FILE]\n");
+        "usage: [drive office|corridor|hall [START]] | [3d] | [arithmetic] | "
+        "[log FILE [TITLE]]\n");
   }
   return known && good;
 }

@@ -13,12 +13,9 @@
 #include <memory>
 #include <sstream>
 #include <string>
-#include <vector>
 
 #include "drive.hpp"
-#include "picolo/core/math.hpp"
-#include "picolo/host/carmen.hpp"
-#include "support/data.hpp"
+#include "recorded_sweeps.hpp"
 
 namespace picolo {
 namespace {
@@ -70,28 +67,14 @@ INSTANTIATE_TEST_SUITE_P(Scenes, SimulatedHash,
                            return std::string{drive_info.param.first};
                          });
 
-/// The first `scans` of a recorded log, each taken as one instant, through the localiser.
+/// The first `scans` of a recorded log through the localiser.
 std::uint64_t hash_of_log(const std::string& name, std::size_t scans) {
-  host::LineReader reader{test::data_path(name).string()};
-  host::Diagnostics silent{[](std::string_view) {}};
-  const host::CarmenLog log = host::read_carmen(reader, silent);
   auto localiser = std::make_unique<Localiser<HallProfile>>();
   Hash hash;
-  for (std::size_t i = 0; i < std::min(scans, log.scans.size()); ++i) {
-    const host::LogScan& scan = log.scans[i];
-    std::vector<float> x_m;
-    std::vector<float> y_m;
-    for (std::size_t k = 0; k < scan.ranges_m.size(); ++k) {
-      if (!RangeLimits{}.contains(scan.ranges_m[k])) { continue; }
-      const SinCos<float> direction = sin_cos(scan.bearings_rad[k]);
-      const Point2f p = transform(to_f32(scan.base_T_lidar), {scan.ranges_m[k] * direction.cosine,
-                                                              scan.ranges_m[k] * direction.sine});
-      x_m.push_back(p.x_m);
-      y_m.push_back(p.y_m);
-    }
+  for (const test::RecordedSweep& recorded : test::recorded_sweeps(name, scans)) {
     UndistortedSweep sweep;
-    sweep.odom_T_base = scan.odom_T_base;
-    sweep.points = {x_m, y_m};
+    sweep.odom_T_base = recorded.odom_T_base;
+    sweep.points = {recorded.x_m, recorded.y_m};
     EXPECT_EQ(localiser->core().process(sweep, true), Status::ok);
     const Pose2d& pose = localiser->core().map_T_base();
     hash.add(pose.x_m);
@@ -108,7 +91,7 @@ class RecordedHash : public ::testing::TestWithParam<std::pair<const char*, std:
 TEST_P(RecordedHash, EqualsTheCommittedOne) {
   const std::string name = GetParam().first;
   PICOLO_NEED_DATA(name + ".clf.gz");
-  expect_committed(name, hash_of_log(name + ".clf.gz", GetParam().second));
+  expect_committed(name, hash_of_log(name, GetParam().second));
 }
 
 INSTANTIATE_TEST_SUITE_P(Logs, RecordedHash,

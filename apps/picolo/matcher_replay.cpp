@@ -16,11 +16,6 @@
 namespace picolo::tool {
 namespace {
 
-bool has_pose(MatchOutcome outcome) {
-  return outcome == MatchOutcome::converged || outcome == MatchOutcome::iteration_limit ||
-         outcome == MatchOutcome::degenerate;
-}
-
 /// As the localiser's prediction, without what it has learned.
 GuessSigma sigma_of(const Pose2d& motion, bool with_odometry, const PredictionNoise& noise) {
   if (!with_odometry) { return {noise.blind_translation_m, noise.blind_rotation_rad}; }
@@ -95,7 +90,7 @@ class MatcherReplay {
     result_.iterations.push_back(match.report.iterations);
     LocaliserCounters& counters = result_.counters;
     ++counters.outcomes[static_cast<std::size_t>(match.report.outcome)];
-    const bool found = has_pose(match.report.outcome);
+    const bool found = is_pose(match.report.outcome);
     ++(found ? counters.matched : counters.rejected);
     map_T_base_ = found ? match.map_T_base : guess;
   }

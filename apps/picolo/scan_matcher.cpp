@@ -3,27 +3,54 @@
 #include "scan_matcher.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "picolo/host/error.hpp"
 #include "picolo/matching/correlative.hpp"
 #include "picolo/matching/gauss_newton.hpp"
 #include "picolo/matching/levenberg_marquardt.hpp"
+#include "picolo/matching/surface.hpp"
 
 namespace picolo::tool {
 namespace {
+
+/// The sweep's points with the directions of their surfaces, as the localiser matches them.
+class Surfaces {
+ public:
+  explicit Surfaces(const SurfaceConfig& config) : config_{config} {}
+
+  /// Valid until the next call.
+  PointsView of(const PointsView& points) {
+    surface_directions(points, config_, along_x_, along_y_);
+    PointsView with = points;
+    with.along_x = std::span{along_x_}.first(points.size());
+    with.along_y = std::span{along_y_}.first(points.size());
+    return with;
+  }
+
+ private:
+  SurfaceConfig config_;
+  std::array<std::int8_t, SiteProfile::kReturns> along_x_{};
+  std::array<std::int8_t, SiteProfile::kReturns> along_y_{};
+};
 
 /// Gauss-Newton or Levenberg-Marquardt from the guess.
 template <typename Matcher>
 class FieldMatcher final : public ScanMatcher {
  public:
-  FieldMatcher(const Matcher& matcher, float prior_weight, RollingMapCore& map)
-      : matcher_{matcher}, prior_weight_{prior_weight}, map_{map} {}
+  FieldMatcher(const Matcher& matcher, const LocaliserConfig& config, RollingMapCore& map)
+      : matcher_{matcher},
+        surfaces_{config.surface},
+        prior_weight_{config.noise.weight},
+        map_{map} {}
 
   void follow(const Pose2d& /*map_T_base*/) override {}
   ScanMatch match(const UndistortedSweep& sweep, const Pose2d& guess,
                   const GuessSigma& sigma) override {
-    MatchRequest request{.points = sweep.points, .start = to_window(map_.window(), guess)};
+    MatchRequest request{.points = surfaces_.of(sweep.points),
+                         .start = to_window(map_.window(), guess)};
     request.prior = prior_of(request.start, sigma, prior_weight_);
     const MatchReport report = matcher_.match(map_.field(), request);
     return {report, to_map(map_.window(), report.pose), report.covariance};
@@ -32,6 +59,7 @@ class FieldMatcher final : public ScanMatcher {
 
  private:
   Matcher matcher_;
+  Surfaces surfaces_;
   float prior_weight_;
   RollingMapCore& map_;
 };
@@ -41,7 +69,11 @@ class FieldMatcher final : public ScanMatcher {
 class SearchMatcher final : public ScanMatcher {
  public:
   SearchMatcher(const LocaliserConfig& config, RollingMapCore& map)
-      : config_{config}, search_{config.search.correlative}, refiner_{config.fine}, map_{map} {}
+      : config_{config},
+        search_{config.search.correlative},
+        refiner_{config.fine},
+        surfaces_{config.surface},
+        map_{map} {}
 
   void follow(const Pose2d& /*map_T_base*/) override {}
   ScanMatch match(const UndistortedSweep& sweep, const Pose2d& guess,
@@ -56,7 +88,7 @@ class SearchMatcher final : public ScanMatcher {
             std::clamp(3.0F * sigma.translation_m, limits.min_half_m, limits.max_half_m),
         .half_rotation_rad =
             std::clamp(3.0F * sigma.rotation_rad, limits.min_half_rad, limits.max_half_rad)};
-    MatchRequest request{.points = sweep.points, .start = start, .prior = prior};
+    MatchRequest request{.points = surfaces_.of(sweep.points), .start = start, .prior = prior};
     if (search_.search(field, sweep.points, window, prior) == Status::ok &&
         !search_.candidates().empty()) {
       request.start = search_.candidates().front().pose;
@@ -70,6 +102,7 @@ class SearchMatcher final : public ScanMatcher {
   LocaliserConfig config_;
   CorrelativeSearch search_;
   GaussNewtonMatcher<DistanceFieldView> refiner_;
+  Surfaces surfaces_;
   RollingMapCore& map_;
 };
 
@@ -94,6 +127,11 @@ const char* title_of(MatcherKind kind) {
     case MatcherKind::plicp: break;
   }
   return "point-to-line ICP";
+}
+
+bool is_pose(MatchOutcome outcome) {
+  return outcome == MatchOutcome::converged || outcome == MatchOutcome::iteration_limit ||
+         outcome == MatchOutcome::degenerate;
 }
 
 PosePrior prior_of(const Pose2f& window_T_guess, const GuessSigma& sigma, float weight) {
@@ -128,17 +166,16 @@ std::unique_ptr<ScanMatcher> make_scan_matcher(MatcherKind kind, const Localiser
                                                RollingMapCore& map) {
   using Gn = GaussNewtonMatcher<DistanceFieldView>;
   using Lm = LevenbergMarquardtMatcher<DistanceFieldView>;
-  const float weight = config.noise.weight;
   switch (kind) {
-    case MatcherKind::gn: return std::make_unique<FieldMatcher<Gn>>(Gn{config.fine}, weight, map);
+    case MatcherKind::gn: return std::make_unique<FieldMatcher<Gn>>(Gn{config.fine}, config, map);
     case MatcherKind::lm:
       return std::make_unique<FieldMatcher<Lm>>(
-          Lm{LevenbergMarquardtConfig{.residual = config.fine}}, weight, map);
+          Lm{LevenbergMarquardtConfig{.residual = config.fine}}, config, map);
     case MatcherKind::correlative: return std::make_unique<SearchMatcher>(config, map);
-    case MatcherKind::ndt: return make_ndt_matcher();
+    case MatcherKind::ndt: return make_ndt_matcher(config.noise.weight);
     case MatcherKind::plicp: break;
   }
-  return make_plicp_matcher();
+  return make_plicp_matcher(config.noise.weight);
 }
 
 }  // namespace picolo::tool

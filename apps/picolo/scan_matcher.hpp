@@ -23,6 +23,9 @@ inline constexpr const char* kMatcherNames = "gn, lm, ndt, correlative or plicp"
 [[nodiscard]] MatcherKind matcher_kind(const std::string& name);
 [[nodiscard]] const char* title_of(MatcherKind kind);
 
+/// The outcomes whose pose is more than the start handed back.
+[[nodiscard]] bool is_pose(MatchOutcome outcome);
+
 struct ScanMatch {
   MatchReport report{};  ///< pose and information in a frame of the matcher's own
   Pose2d map_T_base{};
@@ -64,8 +67,8 @@ void insert_scan(RollingMapCore& map, const UndistortedSweep& sweep, const Pose2
                                                              RollingMapCore& map);
 
 // For make_scan_matcher.
-[[nodiscard]] std::unique_ptr<ScanMatcher> make_ndt_matcher();
-[[nodiscard]] std::unique_ptr<ScanMatcher> make_plicp_matcher();
+[[nodiscard]] std::unique_ptr<ScanMatcher> make_ndt_matcher(float prior_weight);
+[[nodiscard]] std::unique_ptr<ScanMatcher> make_plicp_matcher(float prior_weight);
 
 /// A prior of the guess in the axes of the window, as the localiser's.
 [[nodiscard]] PosePrior prior_of(const Pose2f& window_T_guess, const GuessSigma& sigma,

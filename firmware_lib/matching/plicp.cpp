@@ -221,8 +221,18 @@ bool PlIcpMatcherCore::step() {
     report_.scan_information.elements[k] = weight * system.h.elements[k];
   }
   const bool open = !(conditioning.condition <= config_.max_condition);
-  StepSolution solution =
-      open ? solve_constrained(system, conditioning, length, config_.max_condition) : solve(system);
+  StepSolution solution;
+  if (is_prior(request_.prior)) {
+    NormalEquations3 fused =
+        open ? observable_part(system, conditioning, length, config_.max_condition) : system;
+    for (float& element : fused.h.elements) { element *= weight; }
+    for (float& element : fused.b) { element *= weight; }
+    add_prior(request_.prior, report_.pose, fused);
+    solution = solve(fused);
+  } else {
+    solution = open ? solve_constrained(system, conditioning, length, config_.max_condition)
+                    : solve(system);
+  }
   if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
   ++report_.iterations;
   report_.pose = moved_by(report_.pose, solution.step);
@@ -241,7 +251,8 @@ bool PlIcpMatcherCore::step() {
 bool PlIcpMatcherCore::finish(MatchOutcome outcome) {
   report_.outcome = outcome;
   if (!keeps_pose(outcome)) { report_.pose = request_.start; }
-  report_.covariance = covariance_of(report_.scan_information, kUnknownVariance);
+  report_.covariance =
+      covariance_of(sum(report_.scan_information, request_.prior.information), kUnknownVariance);
   done_ = true;
   return true;
 }

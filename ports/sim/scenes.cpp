@@ -29,13 +29,19 @@ void add_boxes(World& world, std::span<const Line> boxes) {
   }
 }
 
-/// The vehicle starts on the first point and looks at the second.
+/// Nobody parks a vehicle exactly parallel to the walls. Exactly parallel, with walls at multiples
+/// of a map's cells, is the one case in which all walls are off in the same way: by up to half a
+/// cell.
+constexpr double kParkedAskew_rad = 0.1;
+
+/// The vehicle starts on the first point and looks beside the second.
 void set_route(Scene& scene, std::span<const Point2d> points, bool closed) {
   for (const Point2d& point : points) { static_cast<void>(scene.route.push_back(point)); }
   scene.closed = closed;
   const double heading_rad =
       arc_tangent2(points[1].y_m - points[0].y_m, points[1].x_m - points[0].x_m);
-  scene.world_T_start = {.x_m = points[0].x_m, .y_m = points[0].y_m, .theta_rad = heading_rad};
+  scene.world_T_start = {
+      .x_m = points[0].x_m, .y_m = points[0].y_m, .theta_rad = heading_rad + kParkedAskew_rad};
 }
 
 Scene make_office() {

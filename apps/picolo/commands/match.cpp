@@ -5,20 +5,19 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <memory>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
 #include "commands.hpp"
-#include "matcher_replay.hpp"
 #include "picolo/host/files.hpp"
 #include "picolo/host/json.hpp"
 #include "picolo/host/picture.hpp"
-#include "processor_time.hpp"
-#include "replay_input.hpp"
-#include "scan_matcher.hpp"
+#include "scan_pair.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -31,6 +30,8 @@ struct Options {
   std::string scan;
   std::string matcher = "plicp";
   std::vector<double> guess;
+  std::string pairs;
+  std::vector<double> disturb;
   bool no_odometry = false;
   std::vector<double> lidar;
   std::optional<float> max_range_m;
@@ -57,58 +58,15 @@ ScanName parse_scan(const std::string& text, const std::string& log_before) {
   return name;
 }
 
-/// A scan with points of its own, at the instant of its first return.
-struct ChosenScan {
-  std::vector<float> x_m;
-  std::vector<float> y_m;
-  UndistortedSweep sweep{};
-  Pose2d odom_T_base{};
-  bool has_odometry = false;
-
-  void keep(const UndistortedSweep& from) {
-    x_m.assign(from.points.x_m.begin(), from.points.x_m.end());
-    y_m.assign(from.points.y_m.begin(), from.points.y_m.end());
-    sweep = from;
-    sweep.points = {};
-    sweep.points.x_m = x_m;
-    sweep.points.y_m = y_m;
-  }
-};
-
-void choose(const ScanName& name, const Options& options, host::Diagnostics& diagnostics,
-            ChosenScan& chosen) {
+ReplaySettings settings_of(const Options& options) {
   ReplaySettings settings;
   settings.use_odometry = !options.no_odometry;
   settings.max_range_m = options.max_range_m.value_or(settings.max_range_m);
   if (options.lidar.size() == 3) {
     settings.base_T_lidar = Pose2d{options.lidar[0], options.lidar[1], options.lidar[2]};
   }
-  host::LineReader reader{name.log};
-  const host::CarmenLog log = read_carmen(reader, diagnostics);
-  const ReplayInput input = prepare(log, settings, diagnostics);
-  if (name.index >= input.scans.size()) {
-    throw host::UserError{ExitCode::usage, name.log, fmt::format("has no scan {}", name.index),
-                          fmt::format("its scans are 0 to {}", input.scans.size() - 1)};
-  }
-  const ReplayScan& scan = input.scans[name.index];
-  const auto points = std::make_unique<ScanPoints>(input);
-  const UndistortedSweep* sweep = nullptr;
-  for (std::size_t k = 0; k <= name.index; ++k) { sweep = points->of(input.scans[k]); }
-  if (sweep == nullptr) {
-    throw host::UserError{ExitCode::refused, name.log,
-                          fmt::format("line {}: odometry does not cover the scan", scan.line),
-                          "choose a later one"};
-  }
-  chosen.keep(*sweep);
-  chosen.odom_T_base = sweep->odom_T_base;
-  chosen.has_odometry = input.use_odometry;
+  return settings;
 }
-
-struct MatchResult {
-  Pose2d guess{};
-  ScanMatch match{};
-  double time_us = 0.0;
-};
 
 std::vector<Point2<double>> placed(const ChosenScan& scan, const Pose2d& pose) {
   std::vector<Point2<double>> points_m;
@@ -124,7 +82,7 @@ std::string pose_text(const Pose2d& pose) {
                      pose.theta_rad * kDegreesPerRadian);
 }
 
-void draw(const ChosenScan& reference, const ChosenScan& scan, const MatchResult& result,
+void draw(const ChosenScan& reference, const ChosenScan& scan, const PairMatch& result,
           const Options& options) {
   host::Picture picture;
   picture.title = "Match of " + std::filesystem::path{options.scan}.filename().string() + " with " +
@@ -143,7 +101,7 @@ void draw(const ChosenScan& reference, const ChosenScan& scan, const MatchResult
   write_picture(picture, options.common.out, "match");
 }
 
-void report(const MatchResult& result, const ChosenScan& scan, const Options& options) {
+void report(const PairMatch& result, const ChosenScan& scan, const Options& options) {
   const MatchReport& report = result.match.report;
   const Pose2d& pose = result.match.map_T_base;
   const auto sigma = [&](std::size_t k) {
@@ -180,32 +138,40 @@ void report(const MatchResult& result, const ChosenScan& scan, const Options& op
 }
 
 ExitCode match(const Options& options) {
+  if (!options.pairs.empty()) {
+    PairsOptions pairs{.log = options.reference,
+                       .pairs = options.pairs,
+                       .matcher = options.matcher,
+                       .json = options.common.json};
+    if (options.disturb.size() == 2) {
+      pairs.off_m = options.disturb[0];
+      pairs.off_rad = options.disturb[1] / kDegreesPerRadian;
+    }
+    match_pairs(pairs, settings_of(options));
+    return ExitCode::done;
+  }
   const MatcherKind kind = matcher_kind(options.matcher);
   const ScanName reference_name = parse_scan(options.reference, "");
   const ScanName scan_name = parse_scan(options.scan, reference_name.log);
+  const bool one_log = reference_name.log == scan_name.log;
   host::Diagnostics diagnostics;
-  ChosenScan reference;
-  ChosenScan scan;
-  choose(reference_name, options, diagnostics, reference);
-  choose(scan_name, options, diagnostics, scan);
-  MatchResult result;
-  if (options.guess.size() == 3) {
-    result.guess = {options.guess[0], options.guess[1], options.guess[2]};
-  } else if (reference.has_odometry && scan.has_odometry && reference_name.log == scan_name.log) {
-    result.guess = between(reference.odom_T_base, scan.odom_T_base);
+  std::set<std::size_t> numbers{reference_name.index};
+  if (one_log) { numbers.insert(scan_name.index); }
+  const auto references =
+      read_scans(reference_name.log, numbers, settings_of(options), diagnostics);
+  std::map<std::size_t, ChosenScan> others;
+  if (!one_log) {
+    others = read_scans(scan_name.log, {scan_name.index}, settings_of(options), diagnostics);
   }
-  const LocaliserConfig config;
-  const auto map = std::make_unique<ScanMap>(fine_map_config<SiteProfile>(config.map));
-  const auto matcher = make_scan_matcher(kind, config, map->core());
-  map->core().reset(0.0, 0.0);
-  matcher->follow({});
-  matcher->add(reference.sweep, {});
-  insert_scan(map->core(), reference.sweep, {}, config);
-  // A guess is a guess: it shall not hold the answer.
-  constexpr GuessSigma kHardlyAnything{.translation_m = 10.0F, .rotation_rad = 10.0F};
-  const double begin_us = processor_time_us();
-  result.match = matcher->match(scan.sweep, result.guess, kHardlyAnything);
-  result.time_us = processor_time_us() - begin_us;
+  const ChosenScan& reference = references.at(reference_name.index);
+  const ChosenScan& scan = (one_log ? references : others).at(scan_name.index);
+  Pose2d guess{};
+  if (options.guess.size() == 3) {
+    guess = {options.guess[0], options.guess[1], options.guess[2]};
+  } else if (one_log && reference.has_odometry && scan.has_odometry) {
+    guess = between(reference.sweep.odom_T_base, scan.sweep.odom_T_base);
+  }
+  const PairMatch result = PairMatcher{kind}.match(reference, scan, guess);
   draw(reference, scan, result, options);
   report(result, scan, options);
   const MatchOutcome outcome = result.match.report.outcome;
@@ -222,9 +188,12 @@ ExitCode match(const Options& options) {
 void add_match(CLI::App& app, Action& action) {
   auto options = std::make_shared<Options>();
   CLI::App* command = app.add_subcommand("match", "Matches two scans of a log and draws both");
-  command->add_option("REF", options->reference, "LOG:NUMBER, the first scan of a log is 0")
+  command
+      ->add_option("REF", options->reference,
+                   "LOG:NUMBER, the first scan of a log is 0; with --pairs LOG")
       ->required();
-  command->add_option("SCAN", options->scan, "LOG:NUMBER, or NUMBER of the same log")->required();
+  CLI::Option* scan =
+      command->add_option("SCAN", options->scan, "LOG:NUMBER, or NUMBER of the same log");
   add_common_options(*command, options->common);
   command->add_option("--matcher", options->matcher, kMatcherNames)
       ->capture_default_str()
@@ -235,6 +204,19 @@ void add_match(CLI::App& app, Action& action) {
                    "log's odometry has it")
       ->expected(3)
       ->type_name("X Y YAW");
+  CLI::Option* pairs =
+      command
+          ->add_option("--pairs", options->pairs,
+                       "Every pair of this file instead, lines of i j dx dy dtheta: how far the "
+                       "matches lie from it")
+          ->excludes(scan)
+          ->type_name("FILE");
+  command
+      ->add_option("--disturb", options->disturb,
+                   "With --pairs: how far off each guess is, in m and deg [0.2 10]")
+      ->needs(pairs)
+      ->expected(2)
+      ->type_name("M DEG");
   command->add_flag("--no-odometry", options->no_odometry, "Start from the same pose instead");
   command->add_option("--lidar", options->lidar, "Pose of the lidar, instead of the log's")
       ->expected(3)
@@ -249,6 +231,7 @@ void add_match(CLI::App& app, Action& action) {
       "  picolo match freiburg-079.clf.gz:100 105\n"
       "  picolo match intel.clf.gz:10 intel.clf.gz:11 --matcher correlative\n"
       "  picolo match a.clf:0 b.clf:7 --guess 0.3 0 0.1 --json\n"
+      "  picolo match intel_corrected_rt.clf.gz --pairs intel_pairs.txt --matcher gn\n"
       "\n"
       "plicp matches scan to scan; gn, lm and correlative match against a map, ndt against normal\n"
       "distributions, that REF alone has made. correlative needs no good guess: it searches\n"

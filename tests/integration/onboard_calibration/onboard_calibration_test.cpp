@@ -24,6 +24,7 @@ namespace {
 /// Straights, turns on the spot, arcs and quick turns to and fro, within 3 m.
 sim::SimulationConfig calibration_drive() {
   sim::SimulationConfig config{.seed = 5, .scene = sim::make_scene(sim::SceneName::room)};
+  config.scene.world_T_start.theta_rad = 0.0;  // the figure needs the room's length ahead
   config.drive.stand_at_start = 4s;
   config.drive.max_speed_mps = 0.6;
   config.drive.max_omega_radps = 1.2;

@@ -169,6 +169,34 @@ TEST(Match, WhatNamesNoScanIsToldWithTheCure) {
   EXPECT_EQ(run_tool(folder, {"match", "nothing.clf:0", "1"}).exit_code, 3);
 }
 
+class MatchPairs : public ::testing::TestWithParam<const char*> {};
+
+TEST_P(MatchPairs, MotionsKnownToPeopleAreFoundFrom20CentimetresAnd10DegreesOff) {
+  PICOLO_NEED_DATA("raw2d/intel_pairs.txt");
+  const TemporaryFolder folder;
+  const auto run = run_tool(
+      folder, {"match", test::data_path("raw2d/intel_corrected_rt.clf.gz"), "--pairs",
+               test::data_path("raw2d/intel_pairs.txt"), "--matcher", GetParam(), "--json"});
+  ASSERT_EQ(run.exit_code, 0) << run.err;
+  EXPECT_EQ(run.json()["pairs"], 427);
+  EXPECT_LE(run.json()["median_m"].get<double>(), 0.025);
+  EXPECT_LE(run.json()["median_rad"].get<double>(), 0.3 / 57.29578);
+}
+INSTANTIATE_TEST_SUITE_P(All, MatchPairs, ::testing::Values("gn", "correlative", "plicp"));
+
+TEST(Match, AFileThatListsNoPairsIsToldWithTheCure) {
+  const TemporaryFolder folder;
+  const std::string file = folder.write("room.clf", test::make_room_log({.scans = 5}).carmen);
+  const auto match = [&](const std::string& pairs) {
+    return run_tool(folder, {"match", file, "--pairs", folder.write("pairs.txt", pairs)});
+  };
+  const auto torn = match("# i j dx dy dtheta\n0 1 0.1\n");
+  EXPECT_EQ(torn.exit_code, 3);
+  EXPECT_THAT(torn.err, HasSubstr("line 2"));
+  EXPECT_EQ(match("# nothing\n").exit_code, 3);
+  EXPECT_EQ(match("0 9 0 0 0\n").exit_code, 2) << "five scans";
+}
+
 TEST(Match, RecordedScansAgreeWithTheirReference) {
   PICOLO_NEED_DATA("radish/freiburg-079.clf.gz");
   const TemporaryFolder folder;

@@ -96,6 +96,41 @@ TEST(Localiser, TracksWithoutOdometry) {
   EXPECT_LE(distance(core.map_T_base(), world.truth.back()), 0.06);
 }
 
+/// Where a vehicle that stands still believes to be, relative to where its map was founded.
+Pose2d settled(const Pose2d& truth, Random& random) {
+  auto localiser = std::make_unique<Localiser<RoomProfile>>();
+  LocaliserCore& core = localiser->core();
+  for (int i = 0; i < 15; ++i) {
+    test::Scan scan = test::scan_at(test::furnished_room(), truth);
+    for (std::size_t k = 0; k < scan.x_m.size(); ++k) {
+      const float range_m = std::hypot(scan.x_m[k], scan.y_m[k]);
+      const float noise = 1.0F + static_cast<float>(0.01 * random.gaussian()) / range_m;
+      scan.x_m[k] *= noise;
+      scan.y_m[k] *= noise;
+    }
+    UndistortedSweep sweep;
+    sweep.points = scan.view();
+    EXPECT_EQ(core.process(sweep, true), Status::ok);
+  }
+  return core.map_T_base();
+}
+
+TEST(Localiser, GivenAnyHeadingThenTheGridDrawsThePoseNowhere) {
+  Random random{7};
+  constexpr int kPlaces = 40;
+  double x_m = 0.0, y_m = 0.0, squares = 0.0;
+  for (int i = 0; i < kPlaces; ++i) {
+    const Pose2d pose =
+        settled({random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), random.uniform(-3.14, 3.14)},
+                random);
+    x_m += pose.x_m / kPlaces;
+    y_m += pose.y_m / kPlaces;
+    squares += (pose.x_m * pose.x_m + pose.y_m * pose.y_m) / kPlaces;
+  }
+  EXPECT_LT(std::hypot(x_m, y_m), 0.003) << "no direction is preferred";
+  EXPECT_LT(std::sqrt(squares), 0.010) << "cells of 8 cm";
+}
+
 std::uint64_t hash_of(const LocaliserCore& core, const std::vector<Pose2d>& poses) {
   Hash hash;
   for (const Pose2d& pose : poses) {

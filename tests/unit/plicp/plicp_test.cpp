@@ -140,6 +140,20 @@ TEST(PlIcp, ACorridorIsReportedAsDegenerateAndItsAxisStays) {
   EXPECT_NEAR(report.pose.x_m, 0.0F, 0.02F) << "nothing is invented along the corridor";
 }
 
+TEST(PlIcp, APriorDecidesWhatACorridorLeavesOpenAndNothingElse) {
+  const Scan reference = scan_from(corridor(), {}, 400, 0.0, 1);
+  const Scan current = scan_from(corridor(), {0.2, 0.05, 0.02}, 400, 0.0, 2);
+  PlIcpMatcher<720> matcher;
+  MatchRequest request{.points = current.view()};
+  request.prior = {{0.18F, 0.0F, 0.0F}, Matrix3f::diagonal(400.0F, 400.0F, 400.0F)};
+  const MatchReport report = matcher.match(reference.view(), request);
+  EXPECT_EQ(report.outcome, MatchOutcome::degenerate);
+  EXPECT_NEAR(report.pose.x_m, 0.18F, 0.02F);
+  EXPECT_NEAR(report.pose.y_m, 0.05F, 0.01F);
+  EXPECT_NEAR(report.pose.theta_rad, 0.02F, 0.005F);
+  EXPECT_LT(report.covariance(0, 0), 0.01F);
+}
+
 TEST(PlIcp, CovarianceIsHonestInTheRoom) {
   PlIcpMatcher<720> matcher{{.sigma_m = 0.005F}};
   double squares = 0.0;

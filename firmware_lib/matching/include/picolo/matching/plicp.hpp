@@ -67,9 +67,10 @@ struct PlIcpStorage {
 };
 
 /// Same calls and report as the matchers on maps; poses are in the frame of the reference scan,
-/// whose origin must be the sensor (partners are looked for by bearing). The request's prior is not
-/// used. Equal distances: the lower index. Cost: an iteration O(scan points * max_candidates), one
-/// arc tangent a point. Context: cycle only.
+/// whose origin must be the sensor (partners are looked for by bearing). With a prior it alone
+/// decides along directions that the scan leaves open; without one the start does. Equal distances:
+/// the lower index. Cost: an iteration O(scan points * max_candidates), one arc tangent a point.
+/// Context: cycle only.
 class PlIcpMatcherCore {
  public:
   PlIcpMatcherCore(const PlIcpConfig& config, const PlIcpStorage& storage)

@@ -81,9 +81,7 @@ void RplidarProtocol::decode(std::uint8_t byte) {
     nodes_[0] = standard_.node();
     node_count_ = 1;
   } else {
-    const std::uint32_t before = capsules_.counters().frames;
     node_count_ = capsules_.push(byte, nodes_);
-    capsule_ended_ = capsules_.counters().frames != before;
   }
 }
 
@@ -93,8 +91,13 @@ Timestamp RplidarProtocol::measured_before(const ByteTime& time) {
   if (mode_ == RplidarMode::standard) {
     return time.first_bit(RplidarStandardDecoder::kNodeSize + standard_.bytes_after_node());
   }
+  const std::size_t completed = capsules_.completed_bytes();
+  if (completed > 0) { completed_begin_ = time.first_bit(completed); }
   const Timestamp previous = capsule_begin_;
-  if (capsule_ended_) { capsule_begin_ = time.first_bit(capsules_.bytes_of_capsule()); }
+  if (capsules_.counters().frames != capsules_taken_) {
+    capsules_taken_ = capsules_.counters().frames;
+    capsule_begin_ = completed_begin_;
+  }
   return previous;
 }
 

@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "picolo/core/bytes.hpp"
-#include "picolo/core/crc.hpp"
 
 namespace picolo::inline v0 {
 namespace {
@@ -70,27 +69,17 @@ std::int32_t optical_offset_q16(std::uint32_t dist_mm_q2) {
   return static_cast<std::int32_t>(offset * 180 * 100'000'000 / 314'159'265);
 }
 
-RplidarCapsuleFormat format_of(RplidarMode mode) {
-  return {mode == RplidarMode::ultra ? 132U : 84U};
+std::size_t size_of(RplidarMode mode) {
+  return mode == RplidarMode::ultra ? 132 : 84;
 }
 
 }  // namespace
 
-FrameCheck RplidarCapsuleFormat::check(ByteView bytes) const {
-  if ((bytes[0] >> 4U) != 0xAU) { return {FrameVerdict::no_header}; }
-  if (bytes.size() > 1 && (bytes[1] >> 4U) != 0x5U) { return {FrameVerdict::no_header}; }
-  if (bytes.size() < size) { return {FrameVerdict::incomplete}; }
-  const unsigned expected = (bytes[0] & 0xFU) | ((bytes[1] & 0xFU) << 4U);
-  if (xor8(bytes.subspan(2, size - 2)) != expected) { return {FrameVerdict::checksum}; }
-  return {FrameVerdict::complete, size};
-}
-
-RplidarCapsules::RplidarCapsules(RplidarMode mode) : mode_(mode), framer_(format_of(mode)) {}
+RplidarCapsules::RplidarCapsules(RplidarMode mode) : mode_(mode), finder_(size_of(mode)) {}
 
 void RplidarCapsules::reset(RplidarMode mode) {
   mode_ = mode;
-  framer_.reset();
-  framer_.set_format(format_of(mode));
+  finder_.reset(size_of(mode));
   has_previous_ = false;
   last_span_q8_ = 0;
 }
@@ -101,16 +90,15 @@ std::int32_t RplidarCapsules::start_q8(const Bytes& capsule) {
 
 std::size_t RplidarCapsules::push(std::uint8_t byte,
                                   std::span<RplidarNode, kRplidarMaxNodes> nodes) {
-  framer_.push(byte);
-  if (!framer_.next()) { return 0; }
+  if (!finder_.push(byte)) { return 0; }
   Bytes current{};
-  std::copy(framer_.frame().begin(), framer_.frame().end(), current.begin());
-  const std::uint32_t between = framer_.counters().skipped_bytes - skipped_before_;
-  skipped_before_ = framer_.counters().skipped_bytes;
-  const bool adjacent = between == 0;
-  // A few bytes too many, and no capsule missing: the previous one gained a byte that its sum, an
-  // exclusive-or, did not see.
-  if (!adjacent && between < capsule_size() / 2 && has_previous_) {
+  std::copy(finder_.capsule().begin(), finder_.capsule().end(), current.begin());
+  const std::uint32_t apart = finder_.position() - previous_position_;
+  const bool adjacent = apart == capsule_size();
+  previous_position_ = finder_.position();
+  // Nearer than a capsule: the previous one swallowed a byte of this one. A few bytes farther, and
+  // no capsule missing: it gained a byte that its sum, an exclusive-or, did not see.
+  if (!adjacent && apart < capsule_size() + capsule_size() / 2 && has_previous_) {
     has_previous_ = false;
     ++implausible_;
   }

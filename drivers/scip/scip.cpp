@@ -117,6 +117,10 @@ void ScipProtocol::end_line(const ByteTime& time) {
     return;
   }
   if (start < kStatusOffset) {
+    if (parse_scip_echo(text)) {  // torn off, and begun again
+      text_line(text, time);
+      return;
+    }
     const bool scan_follows =
         text.size() >= 2 && ((text[0] == '9' && text[1] == '9') || !scan_.command().continuous);
     // A damaged status is no reason to lose the scan behind it.

@@ -120,8 +120,9 @@ class RplidarProtocol {
   std::uint8_t answer_type_ = 0;
   std::array<RplidarNode, kRplidarMaxNodes> nodes_{};
   std::size_t node_count_ = 0;
-  bool capsule_ended_ = false;
-  Timestamp capsule_begin_{};  ///< first bit of the last one
+  std::uint32_t capsules_taken_ = 0;
+  Timestamp capsule_begin_{};    ///< first bit of the last one
+  Timestamp completed_begin_{};  ///< first bit of the one that was complete last
   RplidarTrouble trouble_ = RplidarTrouble::none;
   RplidarHealth health_ = RplidarHealth::unknown;
   RplidarInfo info_{};

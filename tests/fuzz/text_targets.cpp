@@ -7,10 +7,10 @@
 #include <string>
 #include <string_view>
 
+#include "live/vehicle_settings.hpp"
 #include "picolo/devices/candump.hpp"
 #include "picolo/devices/dbc_file.hpp"
 #include "picolo/host/carmen.hpp"
-#include "picolo/host/config_file.hpp"
 #include "picolo/host/error.hpp"
 #include "picolo/host/map_file.hpp"
 #include "picolo/host/trajectory.hpp"
@@ -84,14 +84,9 @@ void trajectory_reader(Input input) {
 void configuration(Input input) {
   const std::string path = file_of(input, ".toml");
   try {
-    host::ConfigFile file{path};
-    int number = 0;
-    float real = 0.0F;
-    std::string text;
-    file.read("demo", "seconds", number);
-    file.read("localiser", "min_share", real);
-    file.read("lidar", "device", text);
-    file.reject_unknown();
+    const tool::VehicleSettings settings = tool::read_vehicle(path);
+    require(settings.controller.valid(), "settings that do not fit were accepted");
+    require(!settings.lidar_bauds.empty() && !settings.imu_bauds.empty(), "a line without a rate");
   } catch (const host::UserError&) {}
 }
 

@@ -7,15 +7,18 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
 
+#include "picolo/core/random.hpp"
 #include "picolo/devices/dialects.hpp"
 #include "picolo/devices/registry.hpp"
 #include "picolo/geometry/angle.hpp"
+#include "picolo/sensing/sweep.hpp"
 #include "picolo/simulated/simulated_controller.hpp"
 
 namespace picolo::test {
@@ -102,6 +105,104 @@ TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
         Choice{"dbc", "rplidar", "vectornav", 0.15, "dense"},
         Choice{"canopen", "scip", "witmotion", 0.15}}) {
     drive(choice);
+  }
+}
+
+/// Stamps of the read, as a busy machine takes them: late, and several packets at once.
+class LatePort final : public SerialPort {
+ public:
+  LatePort(SerialPort& inner, Clock& clock) : inner_(inner), clock_(clock) {}
+  Result<SerialRead> read(std::span<std::uint8_t> buffer) override {
+    Result<SerialRead> read = inner_.read(buffer);
+    if (!read) { return read.status(); }
+    const Duration late = clock_.now() - read->last_byte_stamp;
+    shortest_ = std::min(shortest_, late);
+    longest_ = std::max(longest_, late);
+    return SerialRead{read->size, clock_.now(), StampSource::read};
+  }
+  Result<std::size_t> write(std::span<const std::uint8_t> bytes) override {
+    return inner_.write(bytes);
+  }
+  [[nodiscard]] std::uint32_t baud() const override { return inner_.baud(); }
+  [[nodiscard]] std::uint32_t lost() const override { return inner_.lost(); }
+  [[nodiscard]] Duration jitter() const { return longest_ - shortest_; }
+
+ private:
+  SerialPort& inner_;
+  Clock& clock_;
+  Duration shortest_ = Duration::max();
+  Duration longest_ = Duration::min();
+};
+
+struct SweepTimes {
+  std::vector<Timestamp> first;
+  Duration input_jitter{};
+};
+
+/// Half a minute of a lidar's sweeps; `late`: read after irregular pauses of up to 30 ms.
+SweepTimes sweep_times(const std::string& name, const std::string& mode, bool late) {
+  // 10 s before a SCIP lidar's clock wraps, 13 s before an LD06's.
+  auto simulation = std::make_unique<sim::Simulation>(sim::SimulationConfig{
+      .seed = 5,
+      .start = Timestamp{16'777'216ms - 10s},
+      .lidar = {.counter_clockwise = devices::turns_counter_clockwise(name)}});
+  const auto port = devices::make_lidar_dialect(name, simulation->lidar_port(), mode);
+  LatePort late_port{*port, simulation->clock()};
+  const auto lidar =
+      devices::make_lidar(name, late ? static_cast<SerialPort&>(late_port) : *port,
+                          {.mode = name == "ydlidar" ? "tmini" : mode, .samples_per_second = 4500});
+  SweepAssembler<1000> assembler;
+  Random random{9};
+  SweepTimes times;
+  Timestamp end{};
+  std::array<RangeReading, 64> readings{};
+  const Timestamp start = simulation->now();
+  for (Timestamp now = start; now < start + 30s;) {
+    now += late ? Duration{1000 * (1 + random.below(30))} : Duration{1000};
+    simulation->advance_to(now);
+    static_cast<void>(lidar->service(now));
+    for (auto n = lidar->poll(4096, readings); n; n = lidar->poll(4096, readings)) {
+      for (const RangeReading& reading : std::span{readings}.first(*n)) {
+        assembler.add(reading);
+        if (!assembler.ready()) { continue; }
+        const Sweep sweep = assembler.take();
+        EXPECT_GE(sweep.stamp, end) << "sweeps overlap";
+        EXPECT_EQ(sweep.returns.front().since_sweep_start_s, 0.0F);
+        EXPECT_NEAR(static_cast<double>(sweep.returns.back().since_sweep_start_s),
+                    to_seconds_f64(sweep.last_stamp - sweep.stamp), 1e-5);
+        end = sweep.last_stamp;
+        times.first.push_back(sweep.stamp);
+      }
+    }
+  }
+  times.input_jitter = late_port.jitter();
+  return times;
+}
+
+TEST(SimulatedDevices, GivenLateReadingThenSweepsNeverOverlapAndHaveNoMoreJitterThanTheirStamps) {
+  for (const auto& [name, mode] : {std::pair{"ld06", ""},
+                                   {"rplidar", ""},
+                                   {"rplidar", "dense"},
+                                   {"ydlidar", ""},
+                                   {"scip", ""}}) {
+    SCOPED_TRACE(std::string{name} + " " + mode);
+    const SweepTimes exact = sweep_times(name, mode, false);
+    const SweepTimes late = sweep_times(name, mode, true);
+    ASSERT_GT(late.first.size(), 250U);
+    Duration shortest = Duration::max();
+    Duration longest = Duration::min();
+    std::size_t at = 0;
+    for (const Timestamp stamp : late.first) {
+      if (stamp < late.first.front() + 2s) { continue; }
+      while (at + 1 < exact.first.size() && exact.first[at + 1] <= stamp + 50ms) { ++at; }
+      const Duration difference = stamp - exact.first[at];
+      shortest = std::min(shortest, difference);
+      longest = std::max(longest, difference);
+    }
+    std::cout << name << " " << mode << ": input jitter " << late.input_jitter.count()
+              << " us, output " << (longest - shortest).count() << " us, " << late.first.size()
+              << " sweeps\n";
+    EXPECT_LE(longest - shortest, late.input_jitter);
   }
 }
 

@@ -195,6 +195,7 @@ TEST(SimulatedDevices, GivenLateReadingThenSweepsNeverOverlapAndHaveNoMoreJitter
     for (const Timestamp stamp : late.first) {
       if (stamp < late.first.front() + 2s) { continue; }
       while (at + 1 < exact.first.size() && exact.first[at + 1] <= stamp + 50ms) { ++at; }
+      if (at + 1 == exact.first.size()) { break; }
       const Duration difference = stamp - exact.first[at];
       shortest = std::min(shortest, difference);
       longest = std::max(longest, difference);

@@ -32,5 +32,7 @@ struct Wire {
 };
 
 [[nodiscard]] std::vector<Wire> all_wires();
+/// Those of them that are RPLIDAR capsules.
+[[nodiscard]] std::vector<Wire> capsule_wires();
 
 }  // namespace picolo::test

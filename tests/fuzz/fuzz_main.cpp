@@ -24,8 +24,8 @@ void on_free(const volatile void* /*pointer*/) {}
 
 const Target* find(const char* name) {
   static std::vector<Target> targets;
-  for (const auto& group :
-       {serial_targets(), can_targets(), text_targets(), store_targets(), algorithm_targets()}) {
+  for (const auto& group : {serial_targets(), can_targets(), slcan_targets(), text_targets(),
+                            store_targets(), algorithm_targets()}) {
     targets.insert(targets.end(), group.begin(), group.end());
   }
   for (const Target& target : targets) {

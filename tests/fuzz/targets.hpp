@@ -22,6 +22,7 @@ struct Target {
 
 [[nodiscard]] std::vector<Target> serial_targets();
 [[nodiscard]] std::vector<Target> can_targets();
+[[nodiscard]] std::vector<Target> slcan_targets();
 [[nodiscard]] std::vector<Target> text_targets();
 [[nodiscard]] std::vector<Target> store_targets();
 [[nodiscard]] std::vector<Target> algorithm_targets();

@@ -107,9 +107,9 @@ Result<CanFrame> SlcanBus::next_in_chunk() {
     ++next_;
     ++line_size_;
     const slcan::LineCutter::Event event = cutter_.add(chunk_[at]);
-    if (event == slcan::LineCutter::Event::none) { continue; }
     const std::size_t size = line_size_;
-    line_size_ = 0;
+    if (slcan::ends_line(chunk_[at])) { line_size_ = 0; }  // that of a spoilt one, too
+    if (event == slcan::LineCutter::Event::none) { continue; }
     if (event == slcan::LineCutter::Event::overlong) {
       ++counters_.malformed;
       ++status_.rx_lost;

@@ -86,7 +86,7 @@ LineCutter::Event LineCutter::add(std::uint8_t byte) {
     line_.clear();
     ended_ = false;
   }
-  if (byte == kEnd || byte == kRefused) {
+  if (ends_line(byte)) {
     const bool spoilt = spoilt_;
     spoilt_ = false;
     ended_ = true;

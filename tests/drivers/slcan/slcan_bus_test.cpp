@@ -92,12 +92,14 @@ TEST(SlcanBus, StampsAFrameWithTheBeginOfItsLine) {
   (void)wire.drain();
   wire.wait(10ms);
   const Timestamp begin = wire.now();
-  wire.say("t12320102\rt1230\r");  // 10 and 6 bytes of 10 us each
+  // 10, 6, 40 (no line of the protocol) and 6 bytes of 10 us each.
+  wire.say("t12320102\rt1230\r" + std::string(39, 't') + "\rt1230\r");
   wire.wait(5ms);
   const std::vector<CanFrame> frames = wire.drain();
-  ASSERT_EQ(frames.size(), 2U);
+  ASSERT_EQ(frames.size(), 3U);
   EXPECT_EQ(frames[0].stamp - begin, Duration{0});
   EXPECT_EQ(frames[1].stamp - begin, Duration{100});
+  EXPECT_EQ(frames[2].stamp - begin, Duration{560});
 }
 
 TEST(SlcanBus, GoesOnBehindALineThatIsNone) {

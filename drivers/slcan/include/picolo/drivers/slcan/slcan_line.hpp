@@ -17,6 +17,9 @@ namespace picolo::inline v0::slcan {
 
 inline constexpr std::uint8_t kEnd = '\r';
 inline constexpr std::uint8_t kRefused = '\a';
+[[nodiscard]] constexpr bool ends_line(std::uint8_t byte) {
+  return byte == kEnd || byte == kRefused;
+}
 
 /// A line to the adapter or from it, its end not included.
 class Line {

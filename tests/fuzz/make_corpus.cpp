@@ -80,6 +80,10 @@ void can(const Corpus& corpus) {
               from_hex("00060000080000000008000000060001080000204100004842"
                        "0600020800000000080000000600030800002041000048c2"));
   corpus.save("vesc", "tachometers", from_hex("0600010800000064000000f00600030800000064000000f0"));
+  // z, frames of every kind, a refusal and a version, in two pieces.
+  corpus.save("slcan", "lines",
+              from_hex("01001c0d7a0d7431323332313132320d543141424344454630314141"
+                       "0d011872313233340d0756313031330d74374646383030313132320d"));
   corpus.save("dbc-wheels", "angles",
               from_hex("0807100100000000003fff08171001000000003fff060000080064006400000000"));
 }

@@ -67,7 +67,7 @@ void log_reader(Input input) {
   const std::string path = file_of(input, ".clf");
   try {
     host::LineReader reader{path};
-    host::Diagnostics diagnostics;
+    host::Diagnostics diagnostics{[](std::string_view) {}};
     (void)host::read_carmen(reader, diagnostics);
   } catch (const host::UserError&) {}
 }
@@ -76,7 +76,7 @@ void trajectory_reader(Input input) {
   const std::string path = file_of(input, ".tum");
   try {
     host::LineReader reader{path};
-    host::Diagnostics diagnostics;
+    host::Diagnostics diagnostics{[](std::string_view) {}};
     (void)host::read_tum(reader, diagnostics);
   } catch (const host::UserError&) {}
 }

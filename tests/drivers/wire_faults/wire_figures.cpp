@@ -86,38 +86,55 @@ Figures flip_bits(const Wire& wire) {
   return figures;
 }
 
-Figures lose_bytes(const Wire& wire) {
+/// `damage(stream, at)` gives the damaged stream, and how many bytes longer it is.
+template <typename Damage>
+void at_every_byte(const Wire& wire, Figures& figures, const Damage& damage) {
   const Stream stream = make_stream(wire);
-  Figures figures;
   for (std::size_t at = stream.first_damaged; at < stream.end_damaged(); ++at) {
     const std::size_t packet = packet_of(stream, at);
-    judge(wire, stream, without_byte(stream.bytes, at), packet, packet, -1, figures);
+    const Bytes damaged = damage(stream, at);
+    const auto longer = static_cast<std::ptrdiff_t>(damaged.size()) -
+                        static_cast<std::ptrdiff_t>(stream.bytes.size());
+    judge(wire, stream, damaged, packet, packet, longer, figures);
   }
+}
+
+Figures lose_bytes(const Wire& wire) {
+  Figures figures;
+  at_every_byte(wire, figures,
+                [](const Stream& s, std::size_t at) { return without_byte(s.bytes, at); });
   return figures;
 }
 
 /// A byte added in front of the first one stands between two packets and hits neither; it may still
 /// look like the header of the one behind it.
 Figures add_bytes(const Wire& wire) {
-  const Stream stream = make_stream(wire);
   Figures figures;
-  for (std::size_t at = stream.first_damaged; at < stream.end_damaged(); ++at) {
-    const std::size_t packet = packet_of(stream, at);
-    for (const int byte : {0x00, 0xFF, 0xAA, 0x55, 0x54, 0x0A}) {
-      judge(wire, stream, with_byte(stream.bytes, at, static_cast<std::uint8_t>(byte)), packet,
-            packet, 1, figures);
-    }
+  for (const std::uint8_t byte : Bytes{0x00, 0xFF, 0xAA, 0x55, 0x54, 0x0A}) {
+    at_every_byte(wire, figures,
+                  [byte](const Stream& s, std::size_t at) { return with_byte(s.bytes, at, byte); });
   }
   return figures;
 }
 
 Figures double_bytes(const Wire& wire) {
-  const Stream stream = make_stream(wire);
   Figures figures;
-  for (std::size_t at = stream.first_damaged; at < stream.end_damaged(); ++at) {
-    const std::size_t packet = packet_of(stream, at);
-    judge(wire, stream, with_byte(stream.bytes, at, stream.bytes[at]), packet, packet, 1, figures);
-  }
+  at_every_byte(wire, figures, [](const Stream& s, std::size_t at) {
+    return with_byte(s.bytes, at, s.bytes[at]);
+  });
+  return figures;
+}
+
+/// Pulled out within a packet and in again before the next.
+Figures tear_off(const Wire& wire) {
+  Figures figures;
+  at_every_byte(wire, figures, [](const Stream& s, std::size_t at) {
+    Bytes torn = s.bytes;
+    const std::size_t end = s.ends[packet_of(s, at)];
+    torn.erase(torn.begin() + static_cast<std::ptrdiff_t>(at),
+               torn.begin() + static_cast<std::ptrdiff_t>(end));
+    return torn;
+  });
   return figures;
 }
 
@@ -137,21 +154,6 @@ Figures burst(const Wire& wire) {
     }
     judge(wire, stream, damaged, packet_of(stream, begin), packet_of(stream, begin + length - 1), 0,
           figures);
-  }
-  return figures;
-}
-
-/// Pulled out within a packet and in again before the next.
-Figures tear_off(const Wire& wire) {
-  const Stream stream = make_stream(wire);
-  Figures figures;
-  for (std::size_t at = stream.first_damaged; at < stream.end_damaged(); ++at) {
-    const std::size_t packet = packet_of(stream, at);
-    Bytes torn = stream.bytes;
-    torn.erase(torn.begin() + static_cast<std::ptrdiff_t>(at),
-               torn.begin() + static_cast<std::ptrdiff_t>(stream.ends[packet]));
-    const auto gone = static_cast<std::ptrdiff_t>(stream.ends[packet] - at);
-    judge(wire, stream, torn, packet, packet, -gone, figures);
   }
   return figures;
 }

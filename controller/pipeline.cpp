@@ -20,7 +20,11 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
       localiser_(localiser),
       gyro_gain_(config.dead_reckoning.gyro_sign * config.dead_reckoning.gyro_scale),
       gate_(config.plausibility, config.drive),
+      plausibility_(config.plausibility),
       turn_check_(config.plausibility),
+      wheel_check_(config.plausibility, config.drive),
+      gyro_check_(plausibility_),
+      gravity_check_(plausibility_),
       drive_(config.drive),
       dead_reckoning_(config.dead_reckoning),
       poses_(pose_storage_),
@@ -29,7 +33,29 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
   localiser_.set_pose(config.start_map_T_base, Pose2d{});
 }
 
+void Pipeline::doubt(SensorIndex sensor, Timestamp stamp) {
+  doubted_until_[static_cast<std::size_t>(sensor)] = stamp + plausibility_.doubt_hold;
+}
+
+void Pipeline::doubt_wheels(SensorDoubts wheels, Timestamp stamp) {
+  for (const SensorIndex wheel : {SensorIndex::left_wheel, SensorIndex::right_wheel}) {
+    if ((wheels & doubt_of(wheel)) != 0) { doubt(wheel, stamp); }
+  }
+}
+
+SensorDoubts Pipeline::doubts() const {
+  unsigned doubts = gravity_check_.doubtful() ? doubt_of(SensorIndex::accelerometer) : 0U;
+  for (std::size_t i = 0; i < doubted_until_.size(); ++i) {
+    if (newest_sample_ < doubted_until_[i]) { doubts |= 1U << i; }
+  }
+  return static_cast<SensorDoubts>(doubts);
+}
+
 void Pipeline::add(const ImuSample& sample) {
+  newest_sample_ = std::max(newest_sample_, sample.stamp);
+  if (gyro_check_.add(sample, moving_)) { doubt(SensorIndex::gyro, sample.stamp); }
+  gravity_check_.add(sample, moving_);
+  dead_reckoning_.hold_bias(gravity_check_.shaken());
   dead_reckoning_.add(sample);
   if (sample.saturated) { return; }
   turn_check_.add_gyro(sample.stamp,
@@ -39,20 +65,27 @@ void Pipeline::add(const ImuSample& sample) {
 void Pipeline::add(RangeReading reading) {
   reading.stamp -= lidar_age_;
   const std::uint32_t completed = sweeps_.counters().completed;
+  sweep_check_.add(reading);
+  if (moving_ && sweep_check_.repeats()) { doubt(SensorIndex::lidar, newest_sample_); }
   sweeps_.add(reading);
   if (sweeps_.counters().completed != completed) { last_sweep_end_ = last_reading_; }
   last_reading_ = reading.stamp;
 }
 
 void Pipeline::add(WheelTicks ticks) {
-  if (!gate_.pass(ticks)) {
+  newest_sample_ = std::max(newest_sample_, ticks.stamp);
+  const bool passed = gate_.pass(ticks);
+  doubt_wheels(gate_.suspects(), ticks.stamp);
+  if (!passed) {
     ++counters_.ticks_left_out;
     return;
   }
+  doubt_wheels(wheel_check_.add(ticks), ticks.stamp);
   const Result<WheelIncrement> increment = drive_.update(ticks);
   if (increment.status() == Status::out_of_range) { ++counters_.ticks_refused; }
   if (increment.status() == Status::not_ready) { bridge(ticks.stamp); }
   if (!increment) { return; }
+  moving_ = !increment->standing;
   dead_reckoning_.add(*increment);
   turn_check_.add(*increment);
   ++counters_.increments;
@@ -140,6 +173,7 @@ bool Pipeline::conclude() {
   const MatchReport& report = localiser_.report();
   verdict_.accepted = localiser_.accepted();
   verdict_.direction_unobservable = report.outcome == MatchOutcome::degenerate;
+  verdict_.turned_by_gyro = dead_reckoning_.turns_by_gyro();
   verdict_.rejection = verdict_.accepted ? HealthReason::none : why_rejected(report.outcome);
   verdict_.reference = localiser_.reference();
   verdict_.odom_T_base = undistorter_.result().odom_T_base;

@@ -36,20 +36,22 @@ WheelGate::WheelGate(const PlausibilityConfig& config, const DifferentialDriveCo
   }
 }
 
-bool WheelGate::believable(const WheelTicks& ticks) const {
+std::uint8_t WheelGate::unbelievable(const WheelTicks& ticks) const {
+  unsigned wheels = 0;
   const std::int64_t elapsed_us = std::min((ticks.stamp - last_.stamp).count(), kMaxElapsed_us);
   for (std::size_t i = 0; i < max_counts_per_s_.size(); ++i) {
     const std::int64_t counts = ticks.ticks[i] - last_.ticks[i];
     const std::int64_t reach = max_counts_per_s_[i] * elapsed_us / kMicrosPerSecond + kSlackCounts;
-    if (counts > reach || counts < -reach) { return false; }
+    if (counts > reach || counts < -reach) { wheels |= 1U << i; }
   }
-  return true;
+  return static_cast<std::uint8_t>(wheels);
 }
 
 bool WheelGate::pass(WheelTicks& ticks) {
   const bool stale = has_last_ && ticks.stamp <= last_.stamp;  // the odometry counts and ignores it
   if (stale) { return true; }
-  if (has_last_ && !ticks.restarted && !believable(ticks)) {
+  suspects_ = has_last_ && !ticks.restarted ? unbelievable(ticks) : std::uint8_t{0};
+  if (suspects_ != 0) {
     if (in_a_row_ < max_in_a_row_) {
       ++in_a_row_;
       ++left_out_;

@@ -44,8 +44,9 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   const Pose2d corrected = verdict.map_T_base * inverse(verdict.odom_T_base);
   const Pose2d& odom_T_base = odometry.odom_T_base;
   last_jump_ = to_f32(between(map_T_odom_ * odom_T_base, corrected * odom_T_base));
+  turned_by_gyro_ = verdict.turned_by_gyro;
   jumped_ = hypotenuse(last_jump_.x_m, last_jump_.y_m) > trust_.max_correction_m ||
-            magnitude(last_jump_.theta_rad) > trust_.max_correction_rad;
+            magnitude(last_jump_.theta_rad) > turn_factor() * trust_.max_correction_rad;
   pull_ = {trust_.pull_kept * pull_.x_m + last_jump_.x_m,
            trust_.pull_kept * pull_.y_m + last_jump_.y_m,
            trust_.pull_kept * pull_.theta_rad + last_jump_.theta_rad};
@@ -111,7 +112,11 @@ PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
 
 bool PoseComposer::pulled() const {
   return hypotenuse(pull_.x_m, pull_.y_m) > trust_.max_pull_m ||
-         magnitude(pull_.theta_rad) > trust_.max_pull_rad;
+         magnitude(pull_.theta_rad) > turn_factor() * trust_.max_pull_rad;
+}
+
+float PoseComposer::turn_factor() const {
+  return turned_by_gyro_ ? 1.0F : trust_.without_gyro;
 }
 
 std::int32_t PoseComposer::jump_mm() const {

@@ -12,6 +12,9 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr Duration kEventPause = 1s;
+// Nothing of the pose comes from the accelerometer.
+constexpr SensorDoubts kOfThePose =
+    static_cast<SensorDoubts>(~doubt_of(SensorIndex::accelerometer));
 constexpr int kDoubtful = 2;  // steps that a doubtful match raises what any other lowers by one
 
 void count_up(int& streak) {
@@ -61,7 +64,6 @@ void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) 
     return;
   }
   rejected_streak_ = 0;
-  pulled_ = pulled;
   direction_unobservable_ = verdict.direction_unobservable;
   const bool poor = verdict.inlier_share < trust_.good_inlier_share ||
                     (unproven_ && verdict.agreement < trust_.found_again_agreement);
@@ -76,11 +78,18 @@ void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) 
   } else if (!poor) {  // a poor match in new surroundings says nothing
     doubt_ -= 1;
   }
+  if (jumped) {
+    proof_left_ = proof_left_ > 0 ? std::max(proof_left_, trust_.proof_matches) : 0;
+  } else if (!poor) {
+    proof_left_ = std::max(0, proof_left_ - 1);
+    hold_left_ = std::max(0, hold_left_ - 1);
+  }
   // A lidar that told the same for seconds has drawn the pose along.
-  if (pulled && !unproven_) {
+  if (pulled && !unproven_ && !pulled_) {
     unproven_ = true;
     accepted_streak_ = 0;
   }
+  pulled_ = pulled;
   doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
 }
 
@@ -96,11 +105,23 @@ void Supervisor::sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dro
   tell(now, EventCode::sweep_dropped, dropped, dropped_);
 }
 
+void Supervisor::doubted(Timestamp now, SensorDoubts sensors) {
+  for (std::size_t i = 0; i < kSensorCount; ++i) {
+    const auto bit = doubt_of(static_cast<SensorIndex>(i));
+    if ((sensors & bit) != 0 && (doubts_ & bit) == 0) {
+      event(now, EventCode::sensor_doubted, static_cast<std::int32_t>(i));
+    }
+  }
+  doubts_ = sensors;
+}
+
 void Supervisor::pose_set(Timestamp now) {
   monitor_.reset();
   accepted_streak_ = 0;
   rejected_streak_ = 0;
   doubt_ = 0;
+  proof_left_ = 0;
+  hold_left_ = 0;
   pulled_ = false;
   event(now, EventCode::pose_set, 0);
 }
@@ -120,20 +141,38 @@ void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {
   slipped_ = slipped;
 }
 
+bool Supervisor::contradicted() const {
+  return turns_disagree_ || pulled_ || doubt_ > trust_.max_doubt || (doubt_ > 0 && searching_) ||
+         (doubts_ & kOfThePose) != 0;
+}
+
 void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule) {
   report_cycle(now, schedule);
+  const Duration unmatched = estimate.match_age + (now - estimate.stamp);
+  if (estimate.matches > 0 && unmatched > trust_.max_unmatched && !unproven_) {
+    unproven_ = true;
+    accepted_streak_ = 0;
+  }
+  const bool contradicted_now = contradicted();
+  if (contradicted_now) {
+    proof_left_ = std::max(proof_left_, pulled_ ? trust_.pull_proof_matches : trust_.proof_matches);
+  }
+  if (contradicted_now && !was_contradicted_) { hold_left_ = trust_.found_again_matches; }
+  was_contradicted_ = contradicted_now;
   const HealthReason reason_before = monitor_.reason();
   const HealthTransition transition = monitor_.update(
       {.now = now,
        .lidar_age = age(DeviceIndex::lidar, now),
        .wheels_age = age(DeviceIndex::wheels, now),
        .gyro_age = age(DeviceIndex::imu, now),
-       .match_age = estimate.match_age + (now - estimate.stamp),
+       .match_age = unmatched,
        .accepted_streak = accepted_streak_,
        .rejected_streak = rejected_streak_,
        .rejection = rejection_,
        .direction_unobservable = direction_unobservable_,
-       .sensors_disagree = turns_disagree_ || pulled_ || doubt_ > trust_.max_doubt,
+       .sensors_disagree = proof_left_ > 0 || contradicted_now,
+       .tilted = tilted_,
+       .turn_unverified = turn_unverified_,
        .relocalising = searching_,
        .position_variance_m2 = estimate.match_covariance(0, 0) + estimate.match_covariance(1, 1),
        .overruns = cycle_troubles_,

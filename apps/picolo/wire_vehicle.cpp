@@ -39,7 +39,10 @@ ControllerConfig controller_config(const ReplayInput& input, const ReplaySetting
                   .max_correction_m = 100.0F,
                   .max_correction_rad = 4.0F,
                   .max_pull_m = 1e6F,
-                  .max_pull_rad = 1e6F};
+                  .max_pull_rad = 1e6F,
+                  .max_wheel_turn_rad = 1e6F,
+                  .max_unmatched = 1h};
+  config.plausibility.max_wheel_acceleration_mps2 = 1e6F;  // its script starts and stops at once
   // The lidar of the player turns only while the vehicle stands, and it drives as long as it takes.
   config.health.max_match_age = 1h;
   config.health.max_lidar_age = 1h;

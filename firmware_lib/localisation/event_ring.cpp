@@ -23,6 +23,7 @@ const char* to_string(EventCode code) {
     case EventCode::mode_set: return "mode_set";
     case EventCode::command_refused: return "command_refused";
     case EventCode::impersonated: return "impersonated";
+    case EventCode::sensor_doubted: return "sensor_doubted";
   }
   return "unknown";
 }

@@ -33,6 +33,8 @@ const char* to_string(HealthReason reason) {
     case HealthReason::configuration: return "configuration";
     case HealthReason::overrun: return "overrun";
     case HealthReason::sensors_disagree: return "sensors_disagree";
+    case HealthReason::tilted: return "tilted";
+    case HealthReason::turn_unverified: return "turn_unverified";
   }
   return "unknown";
 }
@@ -69,6 +71,7 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (lidar_silent) { return {Level::impaired, HealthReason::lidar_silent}; }
   if (wheels_silent) { return {Level::impaired, HealthReason::wheels_silent}; }
   if (inputs.sensors_disagree) { return {Level::impaired, HealthReason::sensors_disagree}; }
+  if (inputs.tilted) { return {Level::impaired, HealthReason::tilted}; }
   if (inputs.rejected_streak >= config_.degraded_rejections) {
     return {Level::impaired, inputs.rejection};
   }
@@ -79,6 +82,7 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (inputs.direction_unobservable) {
     return {Level::impaired, HealthReason::direction_unobservable};
   }
+  if (inputs.turn_unverified) { return {Level::impaired, HealthReason::turn_unverified}; }
   if (config_.expects_gyro && inputs.gyro_age > config_.max_gyro_age) {
     return {Level::impaired, HealthReason::gyro_silent};
   }

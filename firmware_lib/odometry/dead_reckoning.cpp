@@ -33,7 +33,9 @@ void DeadReckoning::add(const ImuSample& sample) {
   }
   const double raw_radps =
       static_cast<double>(config_.gyro_sign * config_.gyro_scale * sample.rate_radps[2]);
-  if (standing_ && sample.stamp - standing_since_ >= config_.standstill) { learn_bias(raw_radps); }
+  if (standing_ && !bias_held_ && sample.stamp - standing_since_ >= config_.standstill) {
+    learn_bias(raw_radps);
+  }
   GyroAngle next{.stamp = sample.stamp, .rate_radps = raw_radps - bias_radps_};
   if (held_ > 0) {
     const double interval_s = to_seconds_f64(sample.stamp - newest().stamp);

@@ -109,7 +109,7 @@ TEST(Faults, GivenAWheelThatLosesPowerThenItIsStartedAgainAndItsJumpIsNoMotion) 
   const Pose2d after = drive.controller().estimate().odom_T_base;
   EXPECT_LT(std::hypot(after.x_m - before.x_m, after.y_m - before.y_m), 0.6)
       << "counts start at 0 again: no leap";
-  drive.until(15s);
+  drive.until(18s);  // a displacement that nothing explains is forgiven after 5 s of good matches
   EXPECT_EQ(drive.state(), kTracking);
   EXPECT_LT(drive.judged().position_error_m, 0.12);
 }

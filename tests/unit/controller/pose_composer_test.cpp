@@ -111,11 +111,26 @@ TEST_F(PoseComposerTest, GivenCorrectionsThatKeepPointingTheSameWayThenAPull) {
     made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
     EXPECT_FALSE(made.jumped());
   }
-  EXPECT_EQ(matches, 5) << "0.03 m + 0.9 of what was before, beyond 0.12 m";
+  EXPECT_EQ(matches, 3) << "0.03 m + 0.97 of what was before, beyond 0.07 m";
   for (int i = 0; i < 10; ++i) {
     made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
   }
   EXPECT_FALSE(made.pulled()) << "it fades";
+}
+
+TEST_F(PoseComposerTest, GivenWheelsThatTurnAloneThenTurnsMayBeWrongerAndAreNotBelievedFurther) {
+  PoseComposer made = composer();
+  MatchVerdict verdict{.accepted = true, .turned_by_gyro = false};
+  verdict.map_T_base = {0.0, 0.0, 0.06};
+  made.correct(verdict, {kStart, {}});
+  EXPECT_FALSE(made.jumped()) << "0.035 rad with a gyro";
+  verdict.map_T_base = {0.0, 0.0, 0.16};
+  made.correct(verdict, {kStart, {}});
+  EXPECT_TRUE(made.jumped());
+  EXPECT_FALSE(made.turn_unverified(false));
+  (void)made.compose(kStart + 100ms, {kStart + 100ms, {0.0, 0.0, 0.05}}, {});
+  EXPECT_TRUE(made.turn_unverified(false));
+  EXPECT_FALSE(made.turn_unverified(true));
 }
 
 TEST_F(PoseComposerTest, GivenCorrectionsThatPointHereAndThereThenNoPull) {

@@ -171,6 +171,9 @@ TEST_F(SupervisorTest, GivenJumpsBeyondChanceThenTheSensorsDisagreeUntilGoodMatc
   EXPECT_EQ(supervisor.state(), HealthState::degraded) << "one match in a row";
   for (int i = 0; i < 3; ++i) { supervisor.matched(kGood); }
   for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::degraded) << "ten have to prove the pose";
+  for (int i = 0; i < 7; ++i) { supervisor.matched(kGood); }
+  for (int i = 0; i < 25; ++i) { tick(); }
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
   EXPECT_FALSE(supervisor.doubts_pose());
 }
@@ -226,6 +229,10 @@ TEST_F(SupervisorTest, GivenAPullThenTheSensorsDisagreeAsLongAsItLasts) {
   EXPECT_TRUE(supervisor.unproven()) << "the pose may have been drawn along";
   supervisor.matched(kGood, false, false);
   EXPECT_FALSE(supervisor.unproven());
+  for (int i = 0; i < 44; ++i) { supervisor.matched(kGood); }
+  for (int i = 0; i < 25; ++i) { tick(); }
+  EXPECT_EQ(supervisor.state(), HealthState::degraded) << "nothing has explained it";
+  supervisor.matched(kGood);
   for (int i = 0; i < 25; ++i) { tick(); }
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
 }
@@ -236,8 +243,56 @@ TEST_F(SupervisorTest, GivenTurnsThatDisagreeThenDegradedAtOnce) {
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
   supervisor.turns(false);
+  for (int i = 0; i < 10; ++i) { supervisor.matched(kGood); }
   for (int i = 0; i < 25; ++i) { tick(); }
   EXPECT_EQ(supervisor.state(), HealthState::tracking);
+}
+
+TEST_F(SupervisorTest, GivenASensorInDoubtThenOneEventAndTheMapWaitsForGoodMatches) {
+  track();
+  supervisor.doubted(now, doubt_of(SensorIndex::right_wheel));
+  EXPECT_EQ(newest().code, EventCode::sensor_doubted);
+  EXPECT_EQ(newest().argument, 1);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+  EXPECT_TRUE(supervisor.doubts_pose());
+  EXPECT_FALSE(supervisor.unproven()) << "the lidar still sees where it is";
+  const std::size_t events = ring.size();
+  supervisor.doubted(now, doubt_of(SensorIndex::right_wheel));
+  EXPECT_EQ(ring.size(), events) << "told already";
+  supervisor.doubted(now, 0);
+  for (int i = 0; i < 5; ++i) { supervisor.matched(kGood); }
+  EXPECT_FALSE(supervisor.doubts_pose());
+}
+
+TEST_F(SupervisorTest, GivenAnAccelerometerInDoubtThenAnEventAndNoMore) {
+  track();
+  supervisor.doubted(now, doubt_of(SensorIndex::accelerometer));
+  tick();
+  EXPECT_EQ(newest().code, EventCode::sensor_doubted);
+  EXPECT_EQ(supervisor.state(), HealthState::tracking) << "nothing of the pose comes from it";
+}
+
+TEST_F(SupervisorTest, GivenAVehicleThatLeansOrTurnsUnseenThenDegradedForThatReason) {
+  track();
+  supervisor.tilted(true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::tilted);
+  supervisor.tilted(false);
+  supervisor.turn_unverified(true);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::turn_unverified);
+}
+
+TEST_F(SupervisorTest, GivenASecondWithoutAMatchThenWhatComesHasToProveThePose) {
+  track();
+  estimate.matches = 3;
+  estimate.match_age = 1s + 1ms;
+  tick();
+  EXPECT_TRUE(supervisor.unproven());
+  estimate.match_age = 50ms;
+  for (int i = 0; i < 5; ++i) { supervisor.matched(kGood); }
+  EXPECT_FALSE(supervisor.unproven());
 }
 
 TEST_F(SupervisorTest, GivenALongSearchThenDegradedForThatReason) {

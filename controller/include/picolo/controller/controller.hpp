@@ -206,6 +206,8 @@ class Controller {
     ticks_.clear();
     supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
     supervisor_.turns(pipeline_.turns_disagree());
+    supervisor_.doubted(frame_.start, pipeline_.doubts());
+    supervisor_.tilted(pipeline_.tilted());
     supervisor_.searching(pipeline_.searching());
     pipeline_.doubt(supervisor_.unproven());
     pipeline_.hold_map(supervisor_.doubts_pose() || desk_.mode() == OperatingMode::localising);
@@ -215,6 +217,7 @@ class Controller {
   void publish(Timestamp now) {
     estimate_ =
         composer_.compose(now, pipeline_.newest_pose(now), pipeline_.odometry().base_twist());
+    supervisor_.turn_unverified(composer_.turn_unverified(pipeline_.odometry().turns_by_gyro()));
     // Judged before each publication: what is wrong must not be told as tracking even a few times.
     supervisor_.update(now, estimate_, executive_.schedule());
     estimate_.state = supervisor_.state();

@@ -80,16 +80,29 @@ struct MatchTrust {
   float max_correction_m = 0.05F;
   float max_correction_rad = 0.035F;  ///< ... or turns it further
   int max_doubt = 3;                  ///< beyond it the sensors disagree
+  /// Once sensors have contradicted each other or themselves, so many good matches in a row without
+  /// a jump have to prove the pose.
+  int proof_matches = 10;
+  int pull_proof_matches = 50;  ///< the same after a pull, which nothing has explained
   /// Corrections that keep pointing the same way add up to a pull; chance ones cancel. Beyond these
   /// the sensors disagree.
-  float max_pull_m = 0.12F;
-  float max_pull_rad = 0.025F;
-  float pull_kept = 0.9F;  ///< share that remains from one match to the next
+  float max_pull_m = 0.07F;
+  float max_pull_rad = 0.02F;
+  float pull_kept = 0.97F;  ///< share that remains from one match to the next
+  /// Factor on the two limits of turns above while the wheels tell the turn alone: they slip.
+  float without_gyro = 2.5F;
+  /// ... and no turn further than this is believed before a match confirms it: a wheel that counts
+  /// wrongly makes a turn of a straight way.
+  float max_wheel_turn_rad = 0.04F;
+  /// Without a match for longer, what is seen afterwards has to prove the pose as after a loss.
+  Duration max_unmatched = 1s;
   [[nodiscard]] constexpr bool valid() const {
     return good_inlier_share >= 0.0F && good_inlier_share <= 1.0F && max_correction_m >= 0.0F &&
            max_correction_rad >= 0.0F && found_again_agreement >= 0.0F &&
            found_again_agreement <= 1.0F && found_again_matches > 0 && max_doubt >= 0 &&
-           max_pull_m > 0.0F && max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
+           proof_matches >= 0 && pull_proof_matches >= proof_matches && without_gyro >= 1.0F &&
+           max_wheel_turn_rad > 0.0F && max_unmatched > Duration{0} && max_pull_m > 0.0F &&
+           max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
   }
 };
 

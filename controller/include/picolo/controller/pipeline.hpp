@@ -10,6 +10,7 @@
 #include <span>
 
 #include "picolo/controller/controller_config.hpp"
+#include "picolo/controller/sensor_checks.hpp"
 #include "picolo/localisation/pose_estimate.hpp"
 #include "picolo/undistort/pose_buffer.hpp"
 
@@ -45,6 +46,7 @@ struct PipelineCounters {
 struct MatchVerdict {
   bool accepted = false;
   bool direction_unobservable = false;
+  bool turned_by_gyro = true;  ///< odometry's turn is the gyro's; otherwise the wheels' alone
   HealthReason rejection = HealthReason::none;
   Timestamp reference{};
   Pose2d odom_T_base{};       ///< odometry at `reference`
@@ -115,6 +117,10 @@ class Pipeline {
   }
   /// Wheels and gyro turn differently.
   [[nodiscard]] bool turns_disagree() const { return turn_check_.disagrees(); }
+  /// Sensors whose own streams cannot be true.
+  [[nodiscard]] SensorDoubts doubts() const;
+  /// The vehicle leans too far for a map of the plane.
+  [[nodiscard]] bool tilted() const { return gravity_check_.tilted(); }
   /// End of the newest complete sweep; the epoch before the first.
   [[nodiscard]] Timestamp last_sweep_end() const { return last_sweep_end_; }
   [[nodiscard]] const PipelineCounters& counters() const { return counters_; }
@@ -122,6 +128,8 @@ class Pipeline {
 
  private:
   void bridge(Timestamp to);
+  void doubt(SensorIndex sensor, Timestamp stamp);
+  void doubt_wheels(SensorDoubts wheels, Timestamp stamp);
   void take_sweep();
   /// True when the end of the match is to be told.
   [[nodiscard]] bool conclude();
@@ -132,7 +140,12 @@ class Pipeline {
   LocaliserCore& localiser_;
   float gyro_gain_;
   WheelGate gate_;
+  const PlausibilityConfig& plausibility_;
   TurnCheck turn_check_;
+  WheelStepCheck wheel_check_;
+  GyroCheck gyro_check_;
+  GravityCheck gravity_check_;
+  SweepCheck sweep_check_;
   DifferentialDrive drive_;
   DeadReckoning dead_reckoning_;
   std::array<StampedPose, kRememberedPoses> pose_storage_{};
@@ -142,6 +155,9 @@ class Pipeline {
   MatchVerdict verdict_{};
   Timestamp last_sweep_end_{};
   Timestamp last_reading_{};
+  Timestamp newest_sample_{};                 // of wheels and IMU
+  std::array<Timestamp, 4> doubted_until_{};  // wheels, lidar, gyro
+  bool moving_ = false;                       // the wheels
   PipelineStage stage_ = PipelineStage::waiting;
   Pose2d set_map_T_odom_{};
   bool pose_was_set_ = false;

@@ -20,11 +20,28 @@ struct PlausibilityConfig {
   float max_wheel_speed_mps = 3.0F;  ///< a sample that asks for more is left out
   int max_left_out = 5;              ///< in a row; the next is taken as a restart of the counters
   float max_turn_difference_rad = 0.02F;  ///< between wheels and gyro, over about the time below
-  Duration turn_memory = 100ms;
+  Duration turn_memory = 200ms;
   Duration max_stamp_error = 20ms;  ///< between wheels and gyro; turns of this length prove nothing
+  /// What a sensor shows by itself, see sensor_checks.hpp. Of a wheel, with ...
+  float max_wheel_acceleration_mps2 = 10.0F;
+  Duration max_stamp_jitter = 1ms;  ///< ... so uncertain stamps.
+  float max_turn_acceleration_radps2 = 40.0F;
+  float max_gyro_leap_radps = 0.15F;  ///< beyond that: noise and bumps
+  /// A moving vehicle's gyro or accelerometer that repeats itself so long is stuck.
+  Duration max_repetition = 150ms;
+  Duration doubt_hold = 300ms;       ///< how long one such finding is held against the sensor
+  float max_gravity_error = 0.2F;    ///< share of 9.81 m/s^2; beyond it the accelerometer is wrong
+  float max_vibration_mps2 = 10.0F;  ///< root of the mean square; more is no drive
+  float max_shaking_mps2 = 0.5F;     ///< more than that against the mean: the vehicle moves
+  float max_tilt_cosine = 0.9848F;   ///< of 10 deg; leaning further, a lidar sees the floor
   [[nodiscard]] constexpr bool valid() const {
     return max_wheel_speed_mps > 0.0F && max_left_out >= 0 && max_turn_difference_rad > 0.0F &&
-           turn_memory > Duration{0} && max_stamp_error >= Duration{0};
+           turn_memory > Duration{0} && max_stamp_error >= Duration{0} &&
+           max_wheel_acceleration_mps2 > 0.0F && max_stamp_jitter >= Duration{0} &&
+           max_turn_acceleration_radps2 > 0.0F && max_gyro_leap_radps > 0.0F &&
+           max_repetition > Duration{0} && doubt_hold >= Duration{0} && max_gravity_error > 0.0F &&
+           max_vibration_mps2 > 0.0F && max_shaking_mps2 > 0.0F && max_tilt_cosine > 0.0F &&
+           max_tilt_cosine <= 1.0F;
   }
 };
 
@@ -40,9 +57,11 @@ class WheelGate {
   [[nodiscard]] bool pass(WheelTicks& ticks);
   /// Samples left out since the start; never reset.
   [[nodiscard]] std::uint32_t left_out() const { return left_out_; }
+  /// Several in a row were: bit 0 for the left wheel, bit 1 for the right one.
+  [[nodiscard]] std::uint8_t suspects() const { return in_a_row_ > 1 ? suspects_ : 0; }
 
  private:
-  [[nodiscard]] bool believable(const WheelTicks& ticks) const;
+  [[nodiscard]] std::uint8_t unbelievable(const WheelTicks& ticks) const;
 
   std::array<std::int64_t, 2> max_counts_per_s_{};
   int max_in_a_row_;
@@ -50,6 +69,7 @@ class WheelGate {
   WheelTicks last_{};
   bool has_last_ = false;
   std::uint32_t left_out_ = 0;
+  std::uint8_t suspects_ = 0;
 };
 
 /// Compares how far wheels and gyro say the vehicle has turned, in a sum that forgets. A frozen
@@ -57,6 +77,7 @@ class WheelGate {
 /// Context: cycle only.
 class TurnCheck {
  public:
+  /// `config` outlives the check.
   explicit TurnCheck(const PlausibilityConfig& config) : config_(config) {}
 
   /// Rate about the vehicle's own axis, bias removed.
@@ -65,7 +86,7 @@ class TurnCheck {
   [[nodiscard]] bool disagrees() const { return disagrees_; }
 
  private:
-  PlausibilityConfig config_;
+  const PlausibilityConfig& config_;
   Timestamp last_gyro_{};
   float gyro_radps_ = 0.0F;
   float gyro_turn_rad_ = 0.0F;  // since the last increment of the wheels

@@ -35,6 +35,10 @@ class PoseComposer {
   [[nodiscard]] bool jumped() const { return jumped_; }
   /// The last corrections went the same way for so long that odometry and lidar must disagree.
   [[nodiscard]] bool pulled() const;
+  /// The wheels alone have turned the vehicle further since the last match than they are trusted.
+  [[nodiscard]] bool turn_unverified(bool turned_by_gyro) const {
+    return !turned_by_gyro && since_match_.turn_rad > trust_.max_wheel_turn_rad;
+  }
   /// How far the last correction went, in millimetres.
   [[nodiscard]] std::int32_t jump_mm() const;
 
@@ -43,6 +47,7 @@ class PoseComposer {
     float distance_m = 0.0F;
     float turn_rad = 0.0F;
   };
+  [[nodiscard]] float turn_factor() const;
   void travel(const Pose2d& odom_T_base);
 
   CovarianceGrowth growth_;
@@ -60,6 +65,7 @@ class PoseComposer {
   Pose2f pull_{};  // sum of jumps, fading; theta is a sum, not wrapped
   std::uint32_t matches_ = 0;
   bool jumped_ = false;
+  bool turned_by_gyro_ = true;
 };
 
 }  // namespace picolo::inline v0

@@ -36,14 +36,20 @@ class Supervisor {
   void matched(const MatchVerdict& verdict, bool jumped = false, bool pulled = false);
   /// Wheels and gyro turn differently, or no longer.
   void turns(bool disagree) { turns_disagree_ = disagree; }
+  /// Sensors whose own streams cannot be true; what is new becomes an event.
+  void doubted(Timestamp now, SensorDoubts sensors);
+  /// The vehicle leans, or no longer.
+  void tilted(bool tilted) { tilted_ = tilted; }
+  /// The wheels alone tell a turn that no match has confirmed.
+  void turn_unverified(bool unverified) { turn_unverified_ = unverified; }
   /// The localiser is searching.
   void searching(bool searching) { searching_ = searching; }
-  /// The pose is lost, or the sensors contradict each other: nothing seen from it should be
-  /// remembered.
+  /// The pose was lost, or the sensors have just contradicted each other, and what is seen from it
+  /// has not been seen to fit since: nothing of it should be remembered.
   [[nodiscard]] bool doubts_pose() const {
-    return unproven_ || state() == HealthState::lost || reason() == HealthReason::sensors_disagree;
+    return unproven_ || hold_left_ > 0 || state() == HealthState::lost;
   }
-  /// The pose was lost and what is seen from it does not yet fit well.
+  /// The pose was lost or drawn along, and what is seen from it does not yet fit well.
   [[nodiscard]] bool unproven() const { return unproven_; }
   void event(Timestamp now, EventCode code, std::int32_t argument);
   /// Counts of the pipeline; what is new becomes an event, at most one of a kind a second.
@@ -63,6 +69,7 @@ class Supervisor {
 
   [[nodiscard]] HealthState state() const { return monitor_.state(); }
   [[nodiscard]] HealthReason reason() const { return monitor_.reason(); }
+  [[nodiscard]] SensorDoubts doubts() const { return doubts_; }
   [[nodiscard]] const EventRing& events() const { return events_; }
   [[nodiscard]] bool connected(DeviceIndex device) const { return watch(device).connected; }
 
@@ -77,6 +84,7 @@ class Supervisor {
   [[nodiscard]] Duration age(DeviceIndex device, Timestamp now) const {
     return now - watch(device).last;
   }
+  [[nodiscard]] bool contradicted() const;
   void report_cycle(Timestamp now, const Schedule& schedule);
 
   HealthMonitor monitor_;
@@ -100,11 +108,17 @@ class Supervisor {
   int accepted_streak_ = 0;
   int rejected_streak_ = 0;
   int doubt_ = 0;
+  int proof_left_ = 0;  // matches until a contradiction is forgiven
+  int hold_left_ = 0;   // matches until the map may change again
+  bool was_contradicted_ = false;
   bool pulled_ = false;
   bool unproven_ = false;  // lost since, and not yet seen to fit
   HealthReason rejection_ = HealthReason::match_rejected;
   bool direction_unobservable_ = false;
   bool turns_disagree_ = false;
+  bool tilted_ = false;
+  bool turn_unverified_ = false;
+  SensorDoubts doubts_ = 0;
   bool searching_ = false;
   bool configuration_refused_ = false;
 };

@@ -33,6 +33,9 @@ enum class EventCode : std::uint8_t {
   command_refused = 12,
   /// Somebody else sends with our identifiers; argument: frames so far.
   impersonated = 13,
+  /// What it says cannot be; argument: 0 left wheel, 1 right wheel, 2 lidar, 3 gyro, 4
+  /// accelerometer.
+  sensor_doubted = 14,
 };
 
 [[nodiscard]] const char* to_string(EventCode code);

@@ -53,6 +53,8 @@ struct HealthInputs {
   HealthReason rejection = HealthReason::match_rejected;  ///< why the last one was rejected
   bool direction_unobservable = false;  ///< the last accepted match left a direction to odometry
   bool sensors_disagree = false;        ///< wheels, gyro and lidar tell different motions
+  bool tilted = false;                  ///< the vehicle leans; sweeps show the floor
+  bool turn_unverified = false;         ///< the wheels alone turned too far since the last match
   bool relocalising = false;            ///< a wide search is running
   /// Larger eigenvalue or trace of the position part; a NaN counts as too large.
   float position_variance_m2 = 0.0F;

@@ -28,7 +28,10 @@ enum class HealthReason : std::uint8_t {
   relocalising = 9,
   configuration = 10,     ///< a part refuses its configuration
   overrun = 11,           ///< the cycle missed its deadlines
-  sensors_disagree = 12,  ///< wheels, gyro and lidar tell different motions
+  /// Wheels, gyro and lidar tell different motions, or one of them what cannot be.
+  sensors_disagree = 12,
+  turn_unverified = 14,  ///< without a gyro: a turn since the last match that nothing confirms
+  tilted = 13,  ///< the vehicle leans: the lidar does not see the plane of the map
 };
 
 [[nodiscard]] const char* to_string(HealthState state);

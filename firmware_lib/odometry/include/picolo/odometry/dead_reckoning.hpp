@@ -45,6 +45,9 @@ class DeadReckoning {
   explicit DeadReckoning(const DeadReckoningConfig& config = {});
 
   void add(const ImuSample& sample);
+  /// While held, nothing is learnt of the gyro's bias: wheels stand, yet something moves the
+  /// vehicle.
+  void hold_bias(bool held) { bias_held_ = held; }
   /// Advances odom_T_base to the end of the increment.
   void add(const WheelIncrement& increment);
 
@@ -53,6 +56,8 @@ class DeadReckoning {
   /// Mean velocity over the last increment.
   [[nodiscard]] const Twist2& base_twist() const { return twist_; }
   [[nodiscard]] float gyro_bias_radps() const { return static_cast<float>(bias_radps_); }
+  /// The last increment ended with an angle of the gyro.
+  [[nodiscard]] bool turns_by_gyro() const { return used_gyro_; }
   [[nodiscard]] bool gyro_bias_known() const { return bias_count_ >= config_.bias_samples; }
   [[nodiscard]] Timestamp last_gyro_stamp() const { return newest().stamp; }
   [[nodiscard]] const DeadReckoningCounters& counters() const { return counters_; }
@@ -79,6 +84,7 @@ class DeadReckoning {
   int bias_count_ = 0;
   Timestamp standing_since_{};
   bool standing_ = false;
+  bool bias_held_ = false;
   double used_angle_rad_ = 0.0;  ///< gyro angle at pose_.stamp, as it was used
   Timestamp used_stamp_{};
   bool used_gyro_ = false;

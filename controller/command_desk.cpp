@@ -90,8 +90,8 @@ CommandResult CommandDesk::act(const Command& command, Timestamp now) {
 CommandResult CommandDesk::set_pose(const Pose2d& map_T_base, Timestamp now) {
   if (!is_number(map_T_base)) { return CommandResult::invalid_argument; }
   const StampedPose odometry = pipeline_.newest_pose(now);
-  pipeline_.set_pose(map_T_base * inverse(odometry.odom_T_base));
   composer_.set_pose(map_T_base, odometry);
+  pipeline_.set_pose(map_T_base * inverse(odometry.odom_T_base), composer_.set_pose_covariance());
   supervisor_.pose_set(now);
   return CommandResult::done;
 }

@@ -30,7 +30,9 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
       poses_(pose_storage_),
       sweeps_(config.sweeps, storage.first_sweep, storage.second_sweep),
       undistorter_(storage.x_m, storage.y_m) {
-  localiser_.set_pose(config.start_map_T_base, Pose2d{});
+  const float heading_rad = config.set_pose.start_heading_rad;
+  localiser_.set_pose(config.start_map_T_base, Pose2d{},
+                      Matrix3f::diagonal(0.0F, 0.0F, heading_rad * heading_rad));
 }
 
 void Pipeline::doubt(SensorIndex sensor, Timestamp stamp) {
@@ -139,7 +141,7 @@ bool Pipeline::undistort(std::size_t max_returns) {
   }
   if (pose_was_set_) {
     const Pose2d odom_T_base = newest_pose({}).odom_T_base;
-    localiser_.set_pose(set_map_T_odom_ * odom_T_base, odom_T_base);
+    localiser_.set_pose(set_map_T_odom_ * odom_T_base, odom_T_base, set_covariance_);
     pose_was_set_ = false;
   }
   constexpr bool kOdometryValid = true;  // without poses the sweep would not have been undistorted
@@ -178,7 +180,8 @@ bool Pipeline::conclude() {
   verdict_.reference = localiser_.reference();
   verdict_.odom_T_base = undistorter_.result().odom_T_base;
   verdict_.map_T_base = localiser_.map_T_base();
-  verdict_.covariance = report.covariance;
+  verdict_.covariance = localiser_.match_covariance();
+  verdict_.drift_covariance = localiser_.drift_covariance();
   verdict_.agreement = localiser_.agreement();
   verdict_.inlier_share = localiser_.counters().sweeps == 1 ? 1.0F : report.inlier_share;
   stage_ = localiser_.phase() == LocaliserPhase::mapping ? PipelineStage::mapping

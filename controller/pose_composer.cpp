@@ -23,21 +23,26 @@ float magnitude(float x) {
 }  // namespace
 
 PoseComposer::PoseComposer(const ControllerConfig& config)
-    : growth_(config.growth),
+    : odometry_noise_(config.localiser.uncertainty.odometry),
+      set_pose_sigma_(config.set_pose),
       max_prediction_(config.max_prediction),
       trust_(config.trust),
       map_T_odom_(config.start_map_T_base),
-      reference_map_T_base_(config.start_map_T_base) {}
+      reference_map_T_base_(config.start_map_T_base) {
+  since_match_.start(Matrix3f::diagonal(0.0F, 0.0F, square(set_pose_sigma_.start_heading_rad)));
+}
 
-void PoseComposer::travel(const Pose2d& odom_T_base) {
-  const Pose2f moved = to_f32(between(last_odom_T_base_, odom_T_base));
-  last_odom_T_base_ = odom_T_base;
-  const float distance_m = hypotenuse(moved.x_m, moved.y_m);
-  const float turn_rad = magnitude(moved.theta_rad);
-  for (Way* way : {&since_match_, &since_start_}) {
-    way->distance_m += distance_m;
-    way->turn_rad += turn_rad;
-  }
+void PoseComposer::travel(const StampedPose& odometry) {
+  const OdometryStep step = step_between(last_odometry_, odometry);
+  last_odometry_ = odometry;
+  turned_since_match_rad_ += magnitude(step.motion.theta_rad);
+  if (step.motion != Pose2f{}) { since_match_.add(odometry_noise_, step); }
+}
+
+OdometryStep PoseComposer::step_between(const StampedPose& from, const StampedPose& to) const {
+  return {.map_yaw_rad = static_cast<float>(map_T_odom_.theta_rad + from.odom_T_base.theta_rad),
+          .motion = to_f32(between(from.odom_T_base, to.odom_T_base)),
+          .elapsed_s = static_cast<float>(to_seconds_f64(to.stamp - from.stamp))};
 }
 
 void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odometry) {
@@ -54,10 +59,13 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   reference_ = verdict.reference;
   reference_odom_T_base_ = verdict.odom_T_base;
   reference_map_T_base_ = verdict.map_T_base;
-  reference_covariance_ = verdict.covariance;
+  drift_covariance_ = verdict.drift_covariance;
   // Fractions of a second have passed since the reference: the chord stands for the way.
-  const Pose2f moved = to_f32(between(verdict.odom_T_base, odom_T_base));
-  since_match_ = {hypotenuse(moved.x_m, moved.y_m), magnitude(moved.theta_rad)};
+  since_match_.start(verdict.covariance);
+  const OdometryStep since = step_between({verdict.reference, verdict.odom_T_base}, odometry);
+  since_match_.add(odometry_noise_, since);
+  turned_since_match_rad_ = magnitude(since.motion.theta_rad);
+  last_odometry_ = odometry;
   ++matches_;
 }
 
@@ -66,9 +74,9 @@ void PoseComposer::set_pose(const Pose2d& map_T_base, const StampedPose& odometr
   reference_ = odometry.stamp;
   reference_odom_T_base_ = odometry.odom_T_base;
   reference_map_T_base_ = map_T_base;
-  reference_covariance_ = Matrix3f::diagonal(square(growth_.set_pose_m), square(growth_.set_pose_m),
-                                             square(growth_.set_pose_rad));
-  since_match_ = {};
+  since_match_.start(set_pose_covariance());
+  turned_since_match_rad_ = 0.0F;
+  last_odometry_ = odometry;
   last_jump_ = {};
   pull_ = {};
   jumped_ = false;
@@ -76,7 +84,7 @@ void PoseComposer::set_pose(const Pose2d& map_T_base, const StampedPose& odometr
 
 PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
                                    const Twist2& base_twist) {
-  travel(odometry.odom_T_base);
+  travel(odometry);
   const Duration ahead = std::clamp(Duration{now - odometry.stamp}, Duration{0}, max_prediction_);
   const double ahead_s = to_seconds_f64(ahead);
   const Pose2d predicted =
@@ -92,22 +100,16 @@ PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
   estimate.match_age = estimate.stamp - reference_;
   estimate.matches = matches_;
 
-  // map_T_base(now) = map_T_base(t) * base(t)_T_base(now): the match's error is carried along, that
-  // of the way is added.
+  estimate.match_covariance = since_match_.covariance();
   const Pose2f at_match{0.0F, 0.0F, static_cast<float>(reference_map_T_base_.theta_rad)};
   const Pose2f moved = to_f32(between(reference_odom_T_base_, estimate.odom_T_base));
-  const float position_variance = square(growth_.position_per_m * since_match_.distance_m) +
-                                  square(growth_.position_per_rad_m * since_match_.turn_rad);
-  const float heading_variance = square(growth_.heading_per_m_rad * since_match_.distance_m) +
-                                 square(growth_.heading_per_rad * since_match_.turn_rad);
-  estimate.match_covariance =
-      sum(propagate(compose_jacobian_left(at_match, moved), reference_covariance_),
-          Matrix3f::diagonal(position_variance, position_variance, heading_variance));
-  const float drift_variance = square(growth_.drift_per_m * since_start_.distance_m);
-  estimate.drift_covariance =
-      Matrix3f::diagonal(drift_variance, drift_variance,
-                         square(growth_.drift_heading_per_m_rad * since_start_.distance_m));
+  estimate.drift_covariance = propagate(compose_jacobian_left(at_match, moved), drift_covariance_);
   return estimate;
+}
+
+Matrix3f PoseComposer::set_pose_covariance() const {
+  const float position_m2 = square(set_pose_sigma_.position_m);
+  return Matrix3f::diagonal(position_m2, position_m2, square(set_pose_sigma_.heading_rad));
 }
 
 bool PoseComposer::pulled() const {

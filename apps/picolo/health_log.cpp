@@ -76,7 +76,8 @@ void ScanHealth::judge(Timestamp stamp, const LocaliserCore& localiser, bool fou
     ++accepted_streak_;
     rejected_streak_ = 0;
     direction_unobservable_ = !founding && report.outcome == MatchOutcome::degenerate;
-    position_variance_m2_ = founding ? 0.0F : report.covariance(0, 0) + report.covariance(1, 1);
+    const Matrix3f covariance = localiser.match_covariance();
+    position_variance_m2_ = founding ? 0.0F : covariance(0, 0) + covariance(1, 1);
   } else {
     ++rejected_streak_;
     accepted_streak_ = 0;

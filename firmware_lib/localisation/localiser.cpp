@@ -55,7 +55,9 @@ LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine
       search_(config.search.correlative),
       heading_(config.heading) {}
 
-void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base) {
+void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base,
+                             const Matrix3f& covariance) {
+  in_map_.start(covariance);
   map_T_base_ = map_T_base;
   map_T_odom_ = map_T_base * inverse(odom_T_base);
   accepted_map_T_base_ = map_T_base;
@@ -121,6 +123,7 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     reference_ = sweep_.reference;
     accepted_map_T_base_ = prediction_;
     accepted_odom_T_base_ = sweep_.odom_T_base;
+    accepted_reference_ = reference_;
     start_map_update();
     return Status::ok;
   }
@@ -290,8 +293,10 @@ void LocaliserCore::conclude() {
     const double turn = between(accepted_map_T_base_, map_T_base_).theta_rad;
     heading_.update(motion, turn, static_cast<double>(report_.covariance(2, 2)) + 1e-4);
   }
+  update_uncertainty();
   accepted_map_T_base_ = map_T_base_;
   accepted_odom_T_base_ = sweep_.odom_T_base;
+  accepted_reference_ = reference_;
   const Pose2d since = between(last_inserted_, map_T_base_);
   const double turn = since.theta_rad < 0.0 ? -since.theta_rad : since.theta_rad;
   const double way_m = hypotenuse(since.x_m, since.y_m);

@@ -4,6 +4,7 @@
 // What the localiser believes before a match, of the motion, and after it, of the fit.
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "picolo/core/convert.hpp"
@@ -13,8 +14,24 @@
 namespace picolo::inline v0 {
 namespace {
 
+constexpr float kUnknownVariance = 1e3F;  // m^2, rad^2
+
 float square(float x) {
   return x * x;
+}
+
+Matrix3f scaled(const Matrix3f& matrix, float factor) {
+  Matrix3f result = matrix;
+  for (float& element : result.elements) { element *= factor; }
+  return result;
+}
+
+void add_square(const std::array<float, 3>& gradient, Matrix3f& sum_of_squares) {
+  for (std::size_t row = 0; row < 3; ++row) {
+    for (std::size_t column = 0; column < 3; ++column) {
+      sum_of_squares(row, column) += gradient[row] * gradient[column];
+    }
+  }
 }
 
 }  // namespace
@@ -51,6 +68,101 @@ Matrix3f LocaliserCore::motion_covariance(const Pose2d& motion) const {
   covariance(2, 0) = covariance(0, 2);
   covariance(2, 1) = covariance(1, 2);
   return covariance;
+}
+
+/// A wall along a row of cells lies anywhere within it, and all its points err together by what a
+/// cell is wide: the gradient's covariance from that, over the cell's variance, for points of unit
+/// information. Walls of four sides; those oblique to the cells are stairs, which even out. And the
+/// same for all walls together, should they move away from the vehicle.
+LocaliserCore::WallErrors LocaliserCore::wall_errors() const {
+  const PointsView& points = sweep_.points;
+  WallErrors errors;
+  if (points.along_x.size() != points.size()) { return errors; }
+  const SinCos<float> yaw = sin_cos(report_.pose.theta_rad);
+  constexpr float kStep = 1.0F / 127.0F;
+  const float per_square = 1.0F / square(config_.uncertainty.aligned_rad);
+  std::array<std::array<float, 3>, 4> sides{};  // in the map: left, right, below, above
+  std::array<float, 3> outward{};
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    const float x = kStep * static_cast<float>(points.along_x[k]);
+    const float y = kStep * static_cast<float>(points.along_y[k]);
+    if (x == 0.0F && y == 0.0F) { continue; }
+    const float along_x = yaw.cosine * x - yaw.sine * y;
+    const float along_y = yaw.sine * x + yaw.cosine * y;
+    const float arm_x = yaw.cosine * points.x_m[k] - yaw.sine * points.y_m[k];
+    const float arm_y = yaw.sine * points.x_m[k] + yaw.cosine * points.y_m[k];
+    const bool upright = square(along_x) < square(along_y);
+    const float weight = 1.0F / (1.0F + square(upright ? along_x : along_y) * per_square);
+    // The normal, towards growing x of upright walls, y of others.
+    const float turned = (upright ? along_y : -along_x) < 0.0F ? -weight : weight;
+    const float normal_x = turned * along_y;
+    const float normal_y = -turned * along_x;
+    std::array<float, 3>& side =
+        upright ? sides[arm_x < 0.0F ? 0 : 1] : sides[arm_y < 0.0F ? 2 : 3];
+    const float arm = normal_x * arm_x + normal_y * arm_y;
+    const float outwards = (arm < 0.0F ? -1.0F : 1.0F) / weight;
+    const std::array<float, 3> gradient{normal_x, normal_y, normal_y * arm_x - normal_x * arm_y};
+    for (std::size_t i = 0; i < 3; ++i) {
+      side[i] += gradient[i];
+      outward[i] += outwards * gradient[i];
+    }
+  }
+  for (const std::array<float, 3>& side : sides) { add_square(side, errors.aligned); }
+  add_square(outward, errors.receding);
+  return errors;
+}
+
+/// The match weighs prediction and scan by their informations: of the prediction's error `kept`
+/// remains, C * prior; the scan's part errs as the residuals say, not as the weights do: with H the
+/// scan's information and the variance of its gradient k H, by k C H C = k (1 - kept) C.
+void LocaliserCore::update_uncertainty() {
+  const UncertaintyConfig& config = config_.uncertainty;
+  const OdometryStep step{
+      .map_yaw_rad = static_cast<float>(accepted_map_T_base_.theta_rad),
+      .motion = to_f32(between(accepted_odom_T_base_, sweep_.odom_T_base)),
+      .elapsed_s = static_cast<float>(to_seconds_f64(reference_ - accepted_reference_))};
+  const Conditioning conditioning = conditioning_of(report_.scan_information, report_.length_m);
+  const Matrix3f& prior = request_.prior.information;
+  const NormalEquations3 constrained = observable_part({report_.scan_information, {}}, conditioning,
+                                                       report_.length_m, config.max_condition);
+  const Matrix3f fused = covariance_of(sum(constrained.h, prior), kUnknownVariance);
+  const Matrix3f kept = product(fused, prior);
+  Matrix3f scan_share = Matrix3f::identity();
+  for (std::size_t i = 0; i < 9; ++i) { scan_share.elements[i] -= kept.elements[i]; }
+  const float points = static_cast<float>(std::max(1, report_.points));
+  const float factor = config.residual_factor * report_.residual_variance_m2 /
+                       square(config_.fine.sigma_m) *
+                       std::min(1.0F, config_.fine.effective_points / points);
+  const Matrix3f share = product(scan_share, fused);
+  const Matrix3f scan = scaled(sum(share, transpose(share)), 0.5F * factor);
+
+  const float cell_variance = square(fine_.config().cell_m) / 12.0F;
+  const float unit = (report_.scan_information(0, 0) + report_.scan_information(1, 1)) / points;
+  const WallErrors walls = wall_errors();
+  const Matrix3f stairs = propagate(fused, scaled(walls.aligned, unit * unit * cell_variance));
+
+  if (!localises_only_) { in_map_.start({}); }
+  in_map_.add(config.odometry, step);
+  if (!with_odometry_) {
+    in_map_.correct(Matrix3f::identity(),
+                    Matrix3f::diagonal(square(config_.noise.blind_translation_m),
+                                       square(config_.noise.blind_translation_m),
+                                       square(config_.noise.blind_rotation_rad)));
+  }
+  in_map_.correct(kept, scan);
+  if (localises_only_) {
+    in_map_error_ = stairs;
+    return;
+  }
+
+  drift_.add(config.odometry, step, kept);
+  const float way_m = hypotenuse(step.motion.x_m, step.motion.y_m);
+  const float added =
+      (counters_.matched == 1 ? config.founding_factor : 0.0F) + config.renewal_per_m * way_m;
+  const float receding = square(unit * config.receding_m) * way_m;
+  drift_.correct(Matrix3f::identity(),
+                 sum(scaled(scan, added), propagate(fused, scaled(walls.receding, receding))));
+  if (counters_.matched == 1) { drift_.correct(Matrix3f::identity(), stairs); }
 }
 
 /// Points in cells that nobody has seen yet tell neither for nor against the pose; those in cells

@@ -65,9 +65,12 @@ bool GaussNewtonMatcher<Field>::step() {
   report_.points = round_to_i32(sums.inside, 0, 1 << 24);
   if (!enough_points(report_.points)) { return finish(MatchOutcome::out_of_map); }
   report_.mean_residual_m = field_.reach_m * sums.residual / sums.inside;
+  report_.residual_variance_m2 =
+      field_.reach_m * field_.reach_m * sums.robust_squares / sums.inside;
   report_.inlier_share = sums.inliers / static_cast<float>(request_.points.size());
   length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
 
+  report_.length_m = length_m_;
   report_.cost = cost_of(sums, config_, field_.reach_m, request_, report_.pose);
   NormalEquations3 system = scaled_system(sums, information_scale(sums, config_, field_.reach_m));
   report_.scan_information = system.h;

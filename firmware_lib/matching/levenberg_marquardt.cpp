@@ -72,6 +72,8 @@ bool LevenbergMarquardtMatcher<Field>::linearise() {
     return false;
   }
   report_.mean_residual_m = field_.reach_m * sums.residual / sums.inside;
+  report_.residual_variance_m2 =
+      field_.reach_m * field_.reach_m * sums.robust_squares / sums.inside;
   report_.inlier_share = sums.inliers / all;
   length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
   scale_ = information_scale(sums, config, field_.reach_m);

@@ -198,7 +198,8 @@ TEST(ControllerConfigTest, GivenPartsThatAreRefusedThenTheWholeIsRefused) {
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.undistort.frame = SweepFrame::lidar; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.undistort.reference = SweepReference::stamp; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.localiser.max_repair_tiles = 0; }));
-  EXPECT_TRUE(refused([](ControllerConfig& c) { c.growth.drift_per_m = -1.0F; }));
+  EXPECT_TRUE(
+      refused([](ControllerConfig& c) { c.localiser.uncertainty.odometry.walk_m = -1.0F; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.health.initial_matches = 0; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.frames_out.base_id = 0x111; }));
   EXPECT_TRUE(refused([](ControllerConfig& c) { c.max_prediction = -1us; }));

@@ -22,6 +22,8 @@ void expect_near(const Pose2d& a, const Pose2d& b, double tolerance = 1e-9) {
   EXPECT_NEAR(wrap_angle(a.theta_rad - b.theta_rad), 0.0, tolerance);
 }
 
+constexpr OdometryNoise kExactOdometry{0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F, 0.0F};
+
 struct PoseComposerTest : ::testing::Test {
   ControllerConfig config{};
   [[nodiscard]] PoseComposer composer() const {
@@ -146,10 +148,7 @@ TEST_F(PoseComposerTest, GivenCorrectionsThatPointHereAndThereThenNoPull) {
 TEST_F(PoseComposerTest, GivenAHeadingErrorAtTheMatchThenItSwingsThePoseThatDroveOn) {
   // Against the sampled distribution: the heading at the match is off by 0.02 rad (sigma), the
   // vehicle drives 5 m since.
-  config.growth = {.position_per_m = 0.0F,
-                   .position_per_rad_m = 0.0F,
-                   .heading_per_m_rad = 0.0F,
-                   .heading_per_rad = 0.0F};
+  config.localiser.uncertainty.odometry = kExactOdometry;
   PoseComposer made = composer();
   const Pose2d at_match{1.0, 2.0, 0.6};
   const Pose2d way{5.0, 0.4, 0.3};
@@ -181,35 +180,41 @@ TEST_F(PoseComposerTest, GivenAHeadingErrorAtTheMatchThenItSwingsThePoseThatDrov
   }
 }
 
-TEST_F(PoseComposerTest, GivenAWayThereAndBackThenTheUncertaintyHasGrownAllTheWay) {
+TEST_F(PoseComposerTest, GivenAWayThereAndBackThenWhatWandersHasGrownAndAWrongScaleCancels) {
+  config.localiser.uncertainty.odometry = kExactOdometry;
+  OdometryNoise& noise = config.localiser.uncertainty.odometry;
+  noise.walk_m = 0.01F;
+  noise.scale = 0.05F;
   PoseComposer made = composer();
   made.correct({.accepted = true, .covariance = Matrix3f::diagonal(1e-4F, 1e-4F, 1e-6F)},
                {kStart, {}});
-  float last = 0.0F;
+  PoseEstimate estimate;
   for (int i = 1; i <= 40; ++i) {
     const double x_m = i <= 20 ? 0.1 * i : 0.1 * (40 - i);
-    const PoseEstimate estimate = made.compose(kStart, {kStart, {x_m, 0.0, 0.0}}, kStanding);
-    EXPECT_GT(estimate.match_covariance(0, 0), last);
-    last = estimate.match_covariance(0, 0);
+    estimate = made.compose(kStart, {kStart, {x_m, 0.0, 0.0}}, kStanding);
+    if (i == 20) {
+      EXPECT_NEAR(estimate.match_covariance(0, 0), 1e-4 + 2e-4 + 0.1 * 0.1, 1e-6) << "5 % of 2 m";
+    }
   }
-  EXPECT_NEAR(std::sqrt(last - 1e-4F), 0.05F * 4.0F, 1e-3F) << "5 % of 4 m";
+  EXPECT_NEAR(estimate.match_covariance(0, 0), 1e-4 + 4e-4, 1e-6);
 }
 
-TEST_F(PoseComposerTest, GivenAMatchThenItsCovarianceStartsAnewButTheDriftOfTheMapRemains) {
+TEST_F(PoseComposerTest, GivenAMatchThenItsCovarianceStartsAnewAndTheMapsDriftIsCarriedAlong) {
   PoseComposer made = composer();
   const StampedPose after_10_m{kStart + 10s, {10.0, 0.0, 0.0}};
   const PoseEstimate before = made.compose(after_10_m.stamp, after_10_m, kStanding);
-  EXPECT_NEAR(std::sqrt(before.drift_covariance(0, 0)), 0.05, 1e-4) << "0.5 % of 10 m";
-  const Matrix3f covariance = Matrix3f::diagonal(1e-4F, 2e-4F, 1e-6F);
+  EXPECT_GT(before.match_covariance(1, 1), 1e-4F);
+  EXPECT_EQ(before.drift_covariance, Matrix3f{});
   made.correct({.accepted = true,
                 .odom_T_base = after_10_m.odom_T_base,
                 .map_T_base = after_10_m.odom_T_base,
-                .covariance = covariance},
+                .covariance = Matrix3f::diagonal(1e-4F, 2e-4F, 1e-6F),
+                .drift_covariance = Matrix3f::diagonal(4e-4F, 5e-4F, 1e-4F)},
                after_10_m);
-  const PoseEstimate after = made.compose(after_10_m.stamp, after_10_m, kStanding);
-  EXPECT_NEAR(after.match_covariance(0, 0), 1e-4, 1e-9);
-  EXPECT_NEAR(after.match_covariance(1, 1), 2e-4, 1e-9);
-  EXPECT_EQ(after.drift_covariance, before.drift_covariance);
+  const StampedPose later{kStart + 11s, {12.0, 0.0, 0.0}};
+  const PoseEstimate ahead = made.compose(later.stamp, later, kStanding);
+  EXPECT_NEAR(ahead.drift_covariance(1, 1), 5e-4 + 1e-4 * 2.0 * 2.0, 1e-8) << "the lever of 2 m";
+  EXPECT_LT(ahead.match_covariance(1, 1), before.match_covariance(1, 1));
 }
 
 }  // namespace

@@ -48,22 +48,15 @@ struct TaskBudgets {
   Duration report{400};
 };
 
-/// How the uncertainty of the published pose grows with the way since the last match, and that of
-/// the map with the way since the start. Standard deviations proportional to the way: wheels and
-/// gyro err systematically.
-struct CovarianceGrowth {
-  float position_per_m = 0.05F;  ///< since the match
-  float position_per_rad_m = 0.01F;
-  float heading_per_m_rad = 0.01F;
-  float heading_per_rad = 0.02F;
-  float drift_per_m = 0.005F;  ///< since the start
-  float drift_heading_per_m_rad = 0.001F;
-  float set_pose_m = 0.1F;  ///< of a pose that a command sets, along each axis
-  float set_pose_rad = 0.05F;
+/// How well a command that sets the pose knows it: standard deviations.
+struct SetPoseSigma {
+  float position_m = 0.1F;  ///< along each axis
+  float heading_rad = 0.05F;
+  /// At the start the pose is what the configuration says; until the gyro's bias is known the
+  /// heading runs away by so much.
+  float start_heading_rad = 0.003F;
   [[nodiscard]] constexpr bool valid() const {
-    return position_per_m >= 0.0F && position_per_rad_m >= 0.0F && heading_per_m_rad >= 0.0F &&
-           heading_per_rad >= 0.0F && drift_per_m >= 0.0F && drift_heading_per_m_rad >= 0.0F &&
-           set_pose_m >= 0.0F && set_pose_rad >= 0.0F;
+    return position_m >= 0.0F && heading_rad >= 0.0F && start_heading_rad >= 0.0F;
   }
 };
 
@@ -123,7 +116,7 @@ struct ControllerConfig {
   SweepAssemblerConfig sweeps{};
   UndistortConfig undistort{};  ///< base_T_lidar is here
   LocaliserConfig localiser{};
-  CovarianceGrowth growth{};
+  SetPoseSigma set_pose{};
   PlausibilityConfig plausibility{};
   MatchTrust trust{};
   HealthConfig health{};
@@ -171,7 +164,7 @@ constexpr bool ControllerConfig::valid() const {
   return valid_table(cycle, controller_tasks(work, budgets)) && work.valid() && drive.valid() &&
          dead_reckoning.valid() && sweeps.max_gap > Duration{0} && sweeps.valid() &&
          undistort.valid() && undistort.frame == SweepFrame::base &&
-         undistort.reference != SweepReference::stamp && localiser.valid() && growth.valid() &&
+         undistort.reference != SweepReference::stamp && localiser.valid() && set_pose.valid() &&
          plausibility.valid() && trust.valid() && health.valid() && frames_out.valid() &&
          max_prediction >= Duration{0} && max_bridge >= Duration{0};
 }

@@ -49,11 +49,12 @@ struct MatchVerdict {
   bool turned_by_gyro = true;  ///< odometry's turn is the gyro's; otherwise the wheels' alone
   HealthReason rejection = HealthReason::none;
   Timestamp reference{};
-  Pose2d odom_T_base{};       ///< odometry at `reference`
-  Pose2d map_T_base{};        ///< at `reference`
-  Matrix3f covariance{};      ///< of map_T_base, map axes
-  float agreement = 0.0F;     ///< see LocaliserCore::agreement
-  float inlier_share = 0.0F;  ///< of the points; 1 for the first sweep, which founds the map
+  Pose2d odom_T_base{};         ///< odometry at `reference`
+  Pose2d map_T_base{};          ///< at `reference`
+  Matrix3f covariance{};        ///< of map_T_base given the map, map axes
+  Matrix3f drift_covariance{};  ///< of the map against the start, map axes
+  float agreement = 0.0F;       ///< see LocaliserCore::agreement
+  float inlier_share = 0.0F;    ///< of the points; 1 for the first sweep, which founds the map
 };
 
 /// What the health monitor is told of a match that was not accepted.
@@ -90,10 +91,11 @@ class Pipeline {
   /// See LocaliserCore.
   void doubt(bool doubted) { localiser_.doubt(doubted); }
   void hold_map(bool held) { localiser_.hold_map(held); }
-  /// From now on the pose is map_T_odom * odometry. The end of a match that is under way is not
-  /// told any more; the next match starts from here.
-  void set_pose(const Pose2d& map_T_odom) {
+  /// From now on the pose is map_T_odom * odometry; `covariance` is the pose's, map axes. The end
+  /// of a match that is under way is not told any more; the next match starts from here.
+  void set_pose(const Pose2d& map_T_odom, const Matrix3f& covariance) {
     set_map_T_odom_ = map_T_odom;
+    set_covariance_ = covariance;
     pose_was_set_ = true;
   }
   /// While paused, no new sweep is taken.
@@ -160,6 +162,7 @@ class Pipeline {
   bool moving_ = false;                       // the wheels
   PipelineStage stage_ = PipelineStage::waiting;
   Pose2d set_map_T_odom_{};
+  Matrix3f set_covariance_{};
   bool pose_was_set_ = false;
   bool paused_ = false;
   PipelineCounters counters_{};

@@ -20,6 +20,13 @@ namespace picolo::inline v0 {
       .left_radius_m = 0.1, .right_radius_m = 0.1, .track_m = 0.5, .counts_per_revolution = 4096.0};
   config.undistort.base_T_lidar = {0.12F, 0.0F, 0.0F};
   config.undistort.limits = {.min_m = 0.05F, .max_m = 12.0F};
+  config.localiser.uncertainty.odometry = {.walk_m = 0.0105F,
+                                           .heading_walk_rad = 0.0015F,
+                                           .sideways_m = 0.0025F,
+                                           .scale = 0.001F,
+                                           .heading_per_m_rad = 0.0F,
+                                           .heading_per_s_rad = 0.0007F,
+                                           .heading_scale = 0.0035F};
   return config;
 }
 

@@ -17,6 +17,7 @@
 #include "picolo/matching/gauss_newton.hpp"
 #include "picolo/matching/surface.hpp"
 #include "picolo/odometry/heading_correction.hpp"
+#include "picolo/odometry/motion_uncertainty.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
@@ -68,6 +69,27 @@ struct SearchConfig {
   }
 };
 
+/// What the published covariances are made of; no pose depends on it.
+struct UncertaintyConfig {
+  OdometryNoise odometry{};
+  /// A direction that the scan constrains less than this below its best says nothing of its error:
+  /// noise of the normals feigns as much.
+  float max_condition = 20.0F;
+  float aligned_rad = 0.09F;  ///< a wall within this of a row of cells errs as a whole
+  /// Of a match: the residuals' variance, so often, over the information of all points:
+  /// neighbouring beams and the stairs of oblique walls err together.
+  float residual_factor = 0.4F;
+  /// Of a map that one scan has founded, in multiples of a match's covariance, ...
+  float founding_factor = 12.0F;
+  float renewal_per_m = 5.0F;  ///< ... and what each metre adds to it, as the view is renewed
+  float receding_m = 0.006F;   ///< walls seen from one side only move away in it: after 1 m
+  [[nodiscard]] constexpr bool valid() const {
+    return odometry.valid() && max_condition > 1.0F && aligned_rad > 0.0F &&
+           residual_factor > 0.0F && founding_factor >= 0.0F && renewal_per_m >= 0.0F &&
+           receding_m >= 0.0F;
+  }
+};
+
 struct LocaliserConfig {
   MapConfig map{};  ///< of the fine grid; cell size and field radius come from the profile
   GaussNewtonConfig coarse{.max_iterations = 5, .converged_m = 0.01F, .converged_rad = 2e-3F};
@@ -77,6 +99,7 @@ struct LocaliserConfig {
   SearchConfig search{};
   SurfaceConfig surface{};
   HeadingCorrectionConfig heading{};
+  UncertaintyConfig uncertainty{};
   bool use_surfaces = true;   ///< points constrain across their surface only
   bool learn_heading = true;  ///< correct the odometry's heading by what matches taught
   /// A match with fewer points near known obstacles may not move the pose nor the map.
@@ -91,7 +114,8 @@ struct LocaliserConfig {
     return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
            min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
            ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && search.valid() &&
-           surface.valid() && max_insert_range_m > 0.0F && max_repair_tiles > 0;
+           surface.valid() && uncertainty.valid() && max_insert_range_m > 0.0F &&
+           max_repair_tiles > 0;
   }
 };
 
@@ -126,7 +150,9 @@ class LocaliserCore {
                 const SurfaceStorage& surfaces);
 
   /// Where the vehicle stands at the first sweep; afterwards a jump of the pose (the map is kept).
-  void set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base);
+  /// `covariance`: of map_T_base, map axes.
+  void set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base,
+                const Matrix3f& covariance = {});
 
   /// `odometry_valid`: sweep.odom_T_base is real; otherwise the pose is predicted to stand still.
   /// `invalid_argument`: configuration, or a sweep is still being worked on.
@@ -170,6 +196,14 @@ class LocaliserCore {
   [[nodiscard]] const Pose2d& map_T_base() const { return map_T_base_; }
   [[nodiscard]] Timestamp reference() const { return reference_; }
   [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
+  /// Of map_T_base at the last accepted match, given the map, map axes. Directions that the scan
+  /// leaves open gather the odometry's error for as long as the map is a given one; while it is
+  /// being built, that error is the map's: drift.
+  [[nodiscard]] Matrix3f match_covariance() const {
+    return sum(in_map_.covariance(), in_map_error_);
+  }
+  /// Of the map, where the vehicle is, against the start, map axes. Zero in a given map.
+  [[nodiscard]] Matrix3f drift_covariance() const { return drift_.covariance(); }
   [[nodiscard]] const HeadingCorrection& heading() const { return heading_; }
   /// By how much the last accepted match moved the prediction, in base.
   [[nodiscard]] const Pose2f& last_correction() const { return last_correction_; }
@@ -193,6 +227,13 @@ class LocaliserCore {
   [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
+  void update_uncertainty();
+  /// Squares of gradients, for points of unit information.
+  struct WallErrors {
+    Matrix3f aligned{};
+    Matrix3f receding{};
+  };
+  [[nodiscard]] WallErrors wall_errors() const;
   void start_map_update();
   void add_points(std::size_t max_points, bool hits);
 
@@ -221,9 +262,13 @@ class LocaliserCore {
   Pose2d accepted_map_T_base_{};   // at the last accepted match, with ...
   Pose2d accepted_odom_T_base_{};  // ... the odometry at its instant
   HeadingCorrection heading_;
+  MotionUncertainty in_map_{};
+  Matrix3f in_map_error_{};  // what all sweeps here have in common: the map's cells
+  MotionUncertainty drift_{};
   Pose2d last_inserted_{};
   Pose2f last_correction_{};
   Timestamp reference_{};
+  Timestamp accepted_reference_{};
   bool started_ = false;
   bool with_odometry_ = false;
   bool accepted_ = false;

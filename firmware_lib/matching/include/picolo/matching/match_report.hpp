@@ -43,15 +43,17 @@ struct MatchReport {
   Pose2f pose{};                ///< window_T_base
   Matrix3f scan_information{};  ///< of the scan alone, window axes (1/m^2, 1/(m rad), 1/rad^2)
   Matrix3f covariance{};        ///< inverse of scan and prior information together
+  float length_m = 1.0F;        ///< that scales theta: root mean square distance of the points
   float condition = 0.0F;       ///< of the scan information, theta scaled to metres
   /// Directions that the scan leaves open: eigenvalues of the scaled information below their limit.
   /// The prior alone decides along them; without one the start does.
   int open_directions = 0;
   float cost = 0.0F;  ///< robust squared residuals over sigma plus the prior's part; comparable
                       ///< between starts of one request
-  float mean_residual_m = 0.0F;  ///< mean of (1 - M) * reach over points inside of the window
-  float inlier_share = 0.0F;     ///< of the points: within the inlier distance of an obstacle
-  int points = 0;                ///< points that took part
+  float mean_residual_m = 0.0F;       ///< mean of (1 - M) * reach over points inside of the window
+  float residual_variance_m2 = 0.0F;  ///< mean of weighted squares; of field matchers
+  float inlier_share = 0.0F;          ///< of the points: within the inlier distance of an obstacle
+  int points = 0;                     ///< points that took part
 };
 
 }  // namespace picolo::inline v0

@@ -117,7 +117,6 @@ TEST_P(LiveDevices, SimulatedSeenByTheDoctorDrivenAndReplayed) {
     if (!baud.empty()) { EXPECT_THAT(run.err(), HasSubstr("speaks at " + baud)); }
   }
   const host::Json json = host::Json::parse(run.out());
-  EXPECT_EQ(json.at("state"), "tracking");
   EXPECT_GT(json.at("ticks"), 50);
   EXPECT_GT(json.at("imu_samples"), 50);
   EXPECT_GT(json.at("matched"), 3);

@@ -28,9 +28,11 @@ TEST(SlcanLive, TheControllerOpensAnAdapterAndTalksThroughIt) {
                      "--imu", "none", "--json"}};
   const std::string foreign = test::SlcanAdapter::line_of({.id = 0x7A0, .length = 1});
   std::array<std::uint8_t, 256> bytes{};
-  for (int i = 0; i < 3000 && adapter.frames.size() < 20; ++i) {
+  int foreign_sent = 0;
+  for (int i = 0; i < 3000 && (adapter.frames.size() < 20 || foreign_sent < 20); ++i) {
     adapter.take(std::span{bytes}.first(line.take(bytes)));
     const std::string text = adapter.answers + (adapter.open ? foreign : "");
+    foreign_sent += adapter.open ? 1 : 0;
     adapter.answers.clear();
     line.send(std::vector<std::uint8_t>(text.begin(), text.end()));
     ::usleep(10'000);

@@ -55,7 +55,9 @@ SensorDoubts Pipeline::doubts() const {
 
 void Pipeline::add(const ImuSample& sample) {
   newest_sample_ = std::max(newest_sample_, sample.stamp);
-  if (gyro_check_.add(sample, moving_)) { doubt(SensorIndex::gyro, sample.stamp); }
+  if (gyro_check_.add(sample, moving_, turn_check_.difference_rad())) {
+    doubt(SensorIndex::gyro, sample.stamp);
+  }
   gravity_check_.add(sample, moving_);
   dead_reckoning_.hold_bias(gravity_check_.shaken());
   dead_reckoning_.add(sample);

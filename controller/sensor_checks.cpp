@@ -65,7 +65,7 @@ SensorDoubts WheelStepCheck::add(const WheelTicks& ticks) {
   return doubts;
 }
 
-bool GyroCheck::add(const ImuSample& sample, bool moving) {
+bool GyroCheck::add(const ImuSample& sample, bool moving, float turn_difference_rad) {
   const Duration step = sample.stamp - last_;
   if (has_last_ && step <= Duration{0}) { return false; }
   const bool repeats = has_last_ && sample.rate_radps == rate_radps_;
@@ -77,7 +77,9 @@ bool GyroCheck::add(const ImuSample& sample, bool moving) {
   rate_radps_ = sample.rate_radps;
   last_ = sample.stamp;
   has_last_ = true;
-  return leaps || sample.stamp - changed_ >= config_.max_repetition;
+  const bool stuck = sample.stamp - changed_ >= config_.max_repetition &&
+                     magnitude(turn_difference_rad) > config_.max_stuck_turn_rad;
+  return leaps || stuck;
 }
 
 void SweepCheck::add(const RangeReading& reading) {

@@ -61,10 +61,11 @@ TEST_F(WheelStepCheckTest, GivenARestartOrAStaleSampleThenNothingIsCompared) {
 struct GyroCheckTest : ::testing::Test {
   GyroCheck check{kConfig};
   ImuSample sample{.stamp = kStart};
+  float turn_difference_rad = 0.01F;
   bool add(float z_radps, float x_radps = 0.0F, bool moving = true, Duration step = 10ms) {
     sample.stamp += step;
     sample.rate_radps = {x_radps, 0.0F, z_radps};
-    return check.add(sample, moving);
+    return check.add(sample, moving, turn_difference_rad);
   }
 };
 
@@ -72,6 +73,13 @@ TEST_F(GyroCheckTest, GivenOneThatRepeatsItselfWhileDrivingThenDoubtAfter150ms) 
   for (int i = 0; i < 15; ++i) { EXPECT_FALSE(add(0.2F)) << i; }
   EXPECT_TRUE(add(0.2F));
   EXPECT_FALSE(add(0.2F, 0.001F)) << "another axis lives";
+}
+
+TEST_F(GyroCheckTest, GivenACoarseOneThatAgreesWithTheWheelsThenRepetitionProvesNothing) {
+  turn_difference_rad = 0.002F;
+  for (int i = 0; i < 100; ++i) { EXPECT_FALSE(add(0.0F)) << i; }
+  turn_difference_rad = -0.01F;
+  EXPECT_TRUE(add(0.0F));
 }
 
 TEST_F(GyroCheckTest, GivenStandstillThenRepetitionProvesNothing) {

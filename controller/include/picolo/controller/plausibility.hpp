@@ -27,8 +27,10 @@ struct PlausibilityConfig {
   Duration max_stamp_jitter = 1ms;  ///< ... so uncertain stamps.
   float max_turn_acceleration_radps2 = 40.0F;
   float max_gyro_leap_radps = 0.15F;  ///< beyond that: noise and bumps
-  /// A moving vehicle's gyro or accelerometer that repeats itself so long is stuck.
+  /// A moving vehicle's gyro or accelerometer that repeats itself so long is stuck, the gyro when
+  /// wheels and gyro have turned that much differently, too.
   Duration max_repetition = 150ms;
+  float max_stuck_turn_rad = 0.005F;
   Duration doubt_hold = 300ms;       ///< how long one such finding is held against the sensor
   float max_gravity_error = 0.2F;    ///< share of 9.81 m/s^2; beyond it the accelerometer is wrong
   float max_vibration_mps2 = 10.0F;  ///< root of the mean square; more is no drive
@@ -39,9 +41,9 @@ struct PlausibilityConfig {
            turn_memory > Duration{0} && max_stamp_error >= Duration{0} &&
            max_wheel_acceleration_mps2 > 0.0F && max_stamp_jitter >= Duration{0} &&
            max_turn_acceleration_radps2 > 0.0F && max_gyro_leap_radps > 0.0F &&
-           max_repetition > Duration{0} && doubt_hold >= Duration{0} && max_gravity_error > 0.0F &&
-           max_vibration_mps2 > 0.0F && max_shaking_mps2 > 0.0F && max_tilt_cosine > 0.0F &&
-           max_tilt_cosine <= 1.0F;
+           max_repetition > Duration{0} && max_stuck_turn_rad >= 0.0F &&
+           doubt_hold >= Duration{0} && max_gravity_error > 0.0F && max_vibration_mps2 > 0.0F &&
+           max_shaking_mps2 > 0.0F && max_tilt_cosine > 0.0F && max_tilt_cosine <= 1.0F;
   }
 };
 
@@ -84,6 +86,8 @@ class TurnCheck {
   void add_gyro(Timestamp stamp, float rate_radps);
   void add(const WheelIncrement& increment);
   [[nodiscard]] bool disagrees() const { return disagrees_; }
+  /// By wheels, less by gyro; 0 unless both speak.
+  [[nodiscard]] float difference_rad() const { return difference_rad_; }
 
  private:
   const PlausibilityConfig& config_;

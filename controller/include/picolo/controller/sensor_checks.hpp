@@ -43,14 +43,15 @@ class WheelStepCheck {
   bool has_rate_ = false;
 };
 
-/// A gyro that repeats itself to the bit while the vehicle moves, or whose rate leaps. Cost: O(1).
+/// A gyro that repeats itself to the bit while the vehicle turns otherwise, or whose rate leaps.
+/// Repetition alone proves nothing: a coarse gyro says 0 all along a straight way. Cost: O(1).
 /// Context: cycle only.
 class GyroCheck {
  public:
   explicit GyroCheck(const PlausibilityConfig& config) : config_(config) {}
 
-  /// `moving`: the wheels are. True: doubtful.
-  [[nodiscard]] bool add(const ImuSample& sample, bool moving);
+  /// `moving`: the wheels are. `turn_difference_rad`: TurnCheck's. True: doubtful.
+  [[nodiscard]] bool add(const ImuSample& sample, bool moving, float turn_difference_rad);
 
  private:
   const PlausibilityConfig& config_;

@@ -108,6 +108,7 @@ static_assert(static_cast<int>(Status::full) == PICOLO_FULL);
 static_assert(static_cast<int>(Status::invalid_argument) == PICOLO_INVALID_ARGUMENT);
 static_assert(static_cast<int>(HealthState::tracking) == PICOLO_TRACKING);
 static_assert(static_cast<int>(HealthState::fault) == PICOLO_FAULT);
+static_assert(static_cast<int>(HealthState::relocalising) == PICOLO_RELOCALISING);
 
 }  // namespace
 

@@ -6,6 +6,19 @@
 #include <algorithm>
 
 namespace picolo::inline v0 {
+namespace {
+
+constexpr Duration kCoastStep = 10ms;  // between poses, as wheels give them
+
+Pose2d moved(const Twist2& twist, Duration time) {
+  const double time_s = to_seconds_f64(time);
+  return exp_se2(Tangent2<double>{static_cast<double>(twist.x_mps) * time_s,
+                                  static_cast<double>(twist.y_mps) * time_s,
+                                  static_cast<double>(twist.omega_radps) * time_s});
+}
+
+}  // namespace
+
 HealthReason why_rejected(MatchOutcome outcome) {
   if (outcome == MatchOutcome::too_few_points) { return HealthReason::too_few_points; }
   if (outcome == MatchOutcome::out_of_map) { return HealthReason::out_of_map; }
@@ -16,6 +29,8 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
                    LocaliserCore& localiser)
     : undistort_(config.undistort),
       max_bridge_(config.max_bridge),
+      coast_(config.coast),
+      max_lidar_age_(config.health.max_lidar_age),
       lidar_age_(config.lidar_age),
       localiser_(localiser),
       gyro_gain_(config.dead_reckoning.gyro_sign * config.dead_reckoning.gyro_scale),
@@ -77,6 +92,13 @@ void Pipeline::add(RangeReading reading) {
 }
 
 void Pipeline::add(WheelTicks ticks) {
+  last_ticks_ = std::max(last_ticks_, ticks.stamp);
+  if (coasting_) {
+    // What the counters say of the time without them has been guessed already.
+    if (ticks.stamp <= poses_.newest().stamp) { return; }
+    ticks.restarted = true;
+    coasting_ = false;
+  }
   newest_sample_ = std::max(newest_sample_, ticks.stamp);
   const bool passed = gate_.pass(ticks);
   doubt_wheels(gate_.suspects(), ticks.stamp);
@@ -107,16 +129,43 @@ void Pipeline::bridge(Timestamp to) {
   // as before; over a long one the place is kept, and the match has to find the rest. The turn is
   // the gyro's where there is one.
   WheelIncrement gap{.from = from, .to = to};
-  if (to - from <= max_bridge_) {
-    const Twist2& twist = dead_reckoning_.base_twist();
-    const double gap_s = to_seconds_f64(to - from);
-    gap.from_T_to = exp_se2(Tangent2<double>{static_cast<double>(twist.x_mps) * gap_s,
-                                             static_cast<double>(twist.y_mps) * gap_s,
-                                             static_cast<double>(twist.omega_radps) * gap_s});
-  }
+  if (to - from <= max_bridge_) { gap.from_T_to = moved(dead_reckoning_.base_twist(), to - from); }
   dead_reckoning_.add(gap);
   (void)poses_.push(dead_reckoning_.pose());
   ++counters_.bridged;
+}
+
+void Pipeline::coast(Timestamp now) {
+  const bool wheels = now - last_ticks_ <= coast_.after;
+  const bool lidar = now - last_sweep_end_ <= max_lidar_age_;
+  if (!coast_.enabled || wheels || !lidar) { return; }
+  const Timestamp to = now - coast_.behind;
+  if (poses_.size() == 0) {
+    (void)poses_.push({to, Pose2d{}});
+    return;
+  }
+  const Timestamp from = poses_.newest().stamp;
+  if (to - from < kCoastStep) { return; }
+  if (!coasting_) { coast_twist_ = dead_reckoning_.base_twist(); }
+  coasting_ = true;
+  guessed_ = true;
+  if (!verdict_.accepted || now - verdict_.reference > coast_.max_age) { coast_twist_ = {}; }
+  dead_reckoning_.add({.from = from, .to = to, .from_T_to = moved(coast_twist_, to - from)});
+  (void)poses_.push(dead_reckoning_.pose());
+  ++counters_.coasted;
+}
+
+/// From this match and the last: no wheels are needed for it.
+void Pipeline::learn_twist() {
+  const Duration since = localiser_.reference() - verdict_.reference;
+  if (!verdict_.accepted || !localiser_.accepted() || since <= Duration{0} ||
+      since > coast_.max_age || localiser_.relocalised()) {
+    return;
+  }
+  const double since_s = to_seconds_f64(since);
+  const Tangent2<double> way = log_se2(between(verdict_.map_T_base, localiser_.map_T_base()));
+  coast_twist_ = {static_cast<float>(way.x_m / since_s), static_cast<float>(way.y_m / since_s),
+                  static_cast<float>(way.theta_rad / since_s)};
 }
 
 void Pipeline::take_sweep() {
@@ -146,6 +195,8 @@ bool Pipeline::undistort(std::size_t max_returns) {
     localiser_.set_pose(set_map_T_odom_ * odom_T_base, odom_T_base, set_covariance_);
     pose_was_set_ = false;
   }
+  localiser_.predict_loosely(guessed_);
+  guessed_ = coasting_;
   constexpr bool kOdometryValid = true;  // without poses the sweep would not have been undistorted
   if (!is_ok(localiser_.begin(undistorter_.result(), kOdometryValid))) {
     ++counters_.sweeps_refused;
@@ -175,6 +226,9 @@ bool Pipeline::search(std::size_t max_slices) {
 
 bool Pipeline::conclude() {
   const MatchReport& report = localiser_.report();
+  learn_twist();
+  verdict_.guessed = localiser_.predicts_loosely();
+  verdict_.relocalised = localiser_.relocalised();
   verdict_.accepted = localiser_.accepted();
   verdict_.direction_unobservable = report.outcome == MatchOutcome::degenerate;
   verdict_.turned_by_gyro = dead_reckoning_.turns_by_gyro();

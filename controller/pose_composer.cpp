@@ -50,11 +50,11 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   const Pose2d& odom_T_base = odometry.odom_T_base;
   last_jump_ = to_f32(between(map_T_odom_ * odom_T_base, corrected * odom_T_base));
   turned_by_gyro_ = verdict.turned_by_gyro;
-  jumped_ = hypotenuse(last_jump_.x_m, last_jump_.y_m) > trust_.max_correction_m ||
-            magnitude(last_jump_.theta_rad) > turn_factor() * trust_.max_correction_rad;
-  pull_ = {trust_.pull_kept * pull_.x_m + last_jump_.x_m,
-           trust_.pull_kept * pull_.y_m + last_jump_.y_m,
-           trust_.pull_kept * pull_.theta_rad + last_jump_.theta_rad};
+  const bool compared = !verdict.guessed && !verdict.relocalised;
+  pull_ = !compared ? Pose2f{}
+                    : Pose2f{trust_.pull_kept * pull_.x_m + last_jump_.x_m,
+                             trust_.pull_kept * pull_.y_m + last_jump_.y_m,
+                             trust_.pull_kept * pull_.theta_rad + last_jump_.theta_rad};
   map_T_odom_ = corrected;
   reference_ = verdict.reference;
   reference_odom_T_base_ = verdict.odom_T_base;
@@ -79,7 +79,6 @@ void PoseComposer::set_pose(const Pose2d& map_T_base, const StampedPose& odometr
   last_odometry_ = odometry;
   last_jump_ = {};
   pull_ = {};
-  jumped_ = false;
 }
 
 PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
@@ -112,9 +111,14 @@ Matrix3f PoseComposer::set_pose_covariance() const {
   return Matrix3f::diagonal(position_m2, position_m2, square(set_pose_sigma_.heading_rad));
 }
 
-bool PoseComposer::pulled() const {
-  return hypotenuse(pull_.x_m, pull_.y_m) > trust_.max_pull_m ||
-         magnitude(pull_.theta_rad) > turn_factor() * trust_.max_pull_rad;
+PoseCorrection PoseComposer::correction() const {
+  const auto beyond = [](const Pose2f& way, float limit_m, float limit_rad) {
+    return hypotenuse(way.x_m, way.y_m) > limit_m || magnitude(way.theta_rad) > limit_rad;
+  };
+  return {.jumped = beyond(last_jump_, trust_.max_correction_m,
+                           turn_factor() * trust_.max_correction_rad),
+          .pulled = beyond(pull_, trust_.max_pull_m, turn_factor() * trust_.max_pull_rad),
+          .leapt = beyond(last_jump_, trust_.max_leap_m, trust_.max_leap_rad)};
 }
 
 float PoseComposer::turn_factor() const {

@@ -15,11 +15,6 @@ constexpr Duration kEventPause = 1s;
 // Nothing of the pose comes from the accelerometer.
 constexpr SensorDoubts kOfThePose =
     static_cast<SensorDoubts>(~doubt_of(SensorIndex::accelerometer));
-constexpr int kDoubtful = 2;  // steps that a doubtful match raises what any other lowers by one
-
-void count_up(int& streak) {
-  if (streak < std::numeric_limits<int>::max()) { ++streak; }
-}
 
 std::int32_t saturated(std::uint32_t count) {
   constexpr std::uint32_t kMost = std::numeric_limits<std::int32_t>::max();
@@ -56,41 +51,19 @@ void Supervisor::line(DeviceIndex device, Status status, Timestamp now) {
         static_cast<std::int32_t>(device));
 }
 
-void Supervisor::matched(const MatchVerdict& verdict, bool jumped, bool pulled) {
-  if (!verdict.accepted) {
-    count_up(rejected_streak_);
-    accepted_streak_ = 0;
-    rejection_ = verdict.rejection;
-    return;
-  }
-  rejected_streak_ = 0;
-  direction_unobservable_ = verdict.direction_unobservable;
-  const bool poor = verdict.inlier_share < trust_.good_inlier_share ||
-                    (unproven_ && verdict.agreement < trust_.found_again_agreement);
-  if (poor || jumped) {
-    accepted_streak_ = 0;
-  } else {
-    count_up(accepted_streak_);
-  }
-  if (accepted_streak_ >= trust_.found_again_matches) { unproven_ = false; }
-  if (jumped) {
-    doubt_ += poor ? 2 * kDoubtful : kDoubtful;
-  } else if (!poor) {  // a poor match in new surroundings says nothing
-    doubt_ -= 1;
-  }
-  if (jumped) {
-    proof_left_ = proof_left_ > 0 ? std::max(proof_left_, trust_.proof_matches) : 0;
-  } else if (!poor) {
-    proof_left_ = std::max(0, proof_left_ - 1);
-    hold_left_ = std::max(0, hold_left_ - 1);
-  }
-  // A lidar that told the same for seconds has drawn the pose along.
-  if (pulled && !unproven_ && !pulled_) {
-    unproven_ = true;
-    accepted_streak_ = 0;
-  }
-  pulled_ = pulled;
-  doubt_ = std::clamp(doubt_, 0, trust_.max_doubt + 2 * kDoubtful);
+bool Supervisor::matched(const MatchVerdict& verdict, const PoseCorrection& correction) {
+  // Where the pose was guessed, or searched for, a correction contradicts nothing.
+  const bool compared = !verdict.guessed && !verdict.relocalised;
+  const bool leapt = correction.leapt && compared;
+  trust_.matched({.accepted = verdict.accepted,
+                  .rejection = verdict.rejection,
+                  .inlier_share = verdict.inlier_share,
+                  .agreement = verdict.agreement,
+                  .jumped = correction.jumped && compared,
+                  .pulled = correction.pulled && compared,
+                  .leapt = leapt});
+  if (verdict.accepted) { direction_unobservable_ = verdict.direction_unobservable; }
+  return leapt;
 }
 
 void Supervisor::tell(Timestamp now, EventCode code, std::uint32_t count, Trouble& trouble) {
@@ -117,12 +90,8 @@ void Supervisor::doubted(Timestamp now, SensorDoubts sensors) {
 
 void Supervisor::pose_set(Timestamp now) {
   monitor_.reset();
-  accepted_streak_ = 0;
-  rejected_streak_ = 0;
-  doubt_ = 0;
-  proof_left_ = 0;
-  hold_left_ = 0;
-  pulled_ = false;
+  trust_.reset();
+  trust_.distrust();
   event(now, EventCode::pose_set, 0);
 }
 
@@ -142,23 +111,14 @@ void Supervisor::report_cycle(Timestamp now, const Schedule& schedule) {
 }
 
 bool Supervisor::contradicted() const {
-  return turns_disagree_ || pulled_ || doubt_ > trust_.max_doubt || (doubt_ > 0 && searching_) ||
-         (doubts_ & kOfThePose) != 0;
+  return turns_disagree_ || trust_.disagrees(searching_) || (doubts_ & kOfThePose) != 0;
 }
 
 void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Schedule& schedule) {
   report_cycle(now, schedule);
   const Duration unmatched = estimate.match_age + (now - estimate.stamp);
-  if (estimate.matches > 0 && unmatched > trust_.max_unmatched && !unproven_) {
-    unproven_ = true;
-    accepted_streak_ = 0;
-  }
   const bool contradicted_now = contradicted();
-  if (contradicted_now) {
-    proof_left_ = std::max(proof_left_, pulled_ ? trust_.pull_proof_matches : trust_.proof_matches);
-  }
-  if (contradicted_now && !was_contradicted_) { hold_left_ = trust_.found_again_matches; }
-  was_contradicted_ = contradicted_now;
+  trust_.update(contradicted_now, estimate.matches > 0 ? unmatched : Duration{0});
   const HealthReason reason_before = monitor_.reason();
   const HealthTransition transition = monitor_.update(
       {.now = now,
@@ -166,22 +126,26 @@ void Supervisor::update(Timestamp now, const PoseEstimate& estimate, const Sched
        .wheels_age = age(DeviceIndex::wheels, now),
        .gyro_age = age(DeviceIndex::imu, now),
        .match_age = unmatched,
-       .accepted_streak = accepted_streak_,
-       .rejected_streak = rejected_streak_,
-       .rejection = rejection_,
+       .accepted_streak = trust_.accepted_streak(),
+       .rejected_streak = trust_.rejected_streak(),
+       .rejection = trust_.rejection(),
        .direction_unobservable = direction_unobservable_,
-       .sensors_disagree = proof_left_ > 0 || contradicted_now,
+       .sensors_disagree = trust_.proving() || contradicted_now,
        .tilted = tilted_,
        .turn_unverified = turn_unverified_,
        .relocalising = searching_,
+       .unproven = trust_.unproven(),
+       .unverified = unverified_ && trust_.unproven(),
+       .ambiguous = ambiguous_,
        .position_variance_m2 = estimate.match_covariance(0, 0) + estimate.match_covariance(1, 1),
        .overruns = cycle_troubles_,
        .cycle_fault = schedule.faulted(),
        .configuration_refused = configuration_refused_});
-  if (transition.state_changed && transition.to == HealthState::lost) {
-    unproven_ = true;
-    accepted_streak_ = 0;
-  }
+  const bool lost =
+      transition.to == HealthState::lost || transition.to == HealthState::relocalising;
+  const bool was_lost =
+      transition.from == HealthState::lost || transition.from == HealthState::relocalising;
+  if (lost && !was_lost) { trust_.distrust(); }
   if (!transition.state_changed && !transition.reason_changed) { return; }
   events_.push(
       {.stamp_us = now.time_since_epoch().count(),

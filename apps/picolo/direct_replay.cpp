@@ -22,7 +22,10 @@ template <Profile P>
 class DirectReplay {
  public:
   DirectReplay(const ReplayInput& input, const ReplaySettings& settings)
-      : input_{input}, save_map_{settings.save_map}, localiser_{settings.localiser} {
+      : input_{input},
+        save_map_{settings.save_map},
+        localiser_{settings.localiser},
+        health_{!settings.map.empty()} {
     if (!settings.map.empty()) {
       frame_T_map_ = GivenMap{settings.map}.restore(core().restorable_map(), P::kName);
       static_cast<void>(core().localise_in_restored_map());
@@ -33,6 +36,7 @@ class DirectReplay {
     }
     const Pose2d start = settings.map_T_start.value_or(odom_T_base);
     core().set_pose(inverse(frame_T_map_) * start, odom_T_base);
+    health_.guide(core());
   }
 
   DriveResult run() {
@@ -80,6 +84,7 @@ class DirectReplay {
     result_.trajectory.push_back({scan.logged_s, core().map_T_base()});
     result_.odometry.push_back({scan.logged_s, logged_odometry(scan)});
     health_.judge(scan.stamp, core(), core().report().points == 0 && core().accepted());
+    health_.guide(core());
     result_.health.at_scan(scan.logged_s, result_.trajectory.size() - 1, health_.state(),
                            health_.reason());
   }

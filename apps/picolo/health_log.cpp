@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "picolo/controller/pipeline.hpp"
 
@@ -14,8 +15,13 @@ namespace {
 constexpr std::size_t kShown = 24;
 constexpr Duration kNever = 24h;
 
-HealthConfig by_matches_alone() {
+// A leap within the limits of a log is one all the same when what is seen from there fits less.
+constexpr float kLeapShare = 0.3F;
+constexpr float kLeapAgreement = 0.9F;
+
+HealthConfig by_matches_alone(bool in_given_map) {
   HealthConfig config;
+  if (in_given_map) { config.lost_rejections = 5; }
   config.expects_gyro = false;
   config.max_match_age = kNever;
   return config;
@@ -68,27 +74,72 @@ std::string to_lines(const HealthLog& log) {
   return text;
 }
 
-ScanHealth::ScanHealth() : monitor_{by_matches_alone()} {}
+MatchTrust trust_of_log(bool in_given_map) {
+  MatchTrust trust{.good_inlier_share = 0.0F,
+                   .min_agreement = 0.0F,
+                   .max_correction_m = 100.0F,
+                   .max_correction_rad = 4.0F,
+                   .max_leap_m = 100.0F,
+                   .max_leap_rad = 4.0F,
+                   .max_pull_m = 1e6F,
+                   .max_pull_rad = 1e6F,
+                   .max_wheel_turn_rad = 1e6F,
+                   .max_unmatched = 1h};
+  if (in_given_map) {
+    trust.min_agreement = 0.7F;
+    trust.max_leap_m = 1.0F;
+    trust.max_leap_rad = 0.6F;
+  }
+  return trust;
+}
+
+ScanHealth::ScanHealth(bool in_given_map)
+    : in_given_map_{in_given_map},
+      limits_{trust_of_log(in_given_map)},
+      trust_{limits_},
+      monitor_{by_matches_alone(in_given_map)} {
+  if (in_given_map) { trust_.distrust(); }
+}
+
+void ScanHealth::guide(LocaliserCore& localiser) const {
+  if (!in_given_map_) { return; }
+  localiser.doubt(trust_.unproven());
+  if (leapt_) { localiser.verify(false); }
+}
 
 void ScanHealth::judge(Timestamp stamp, const LocaliserCore& localiser, bool founding) {
   const MatchReport& report = localiser.report();
-  if (localiser.accepted()) {
-    ++accepted_streak_;
-    rejected_streak_ = 0;
+  const bool accepted = localiser.accepted();
+  const Pose2f& moved = localiser.last_correction();
+  const float share = localiser.agreement() < kLeapAgreement ? kLeapShare : 1.0F;
+  const bool leapt = accepted && !localiser.relocalised() &&
+                     (std::hypot(moved.x_m, moved.y_m) > share * limits_.max_leap_m ||
+                      std::abs(moved.theta_rad) > share * limits_.max_leap_rad);
+  leapt_ = leapt && !localiser.unverified();
+  trust_.matched({.accepted = accepted,
+                  .rejection = why_rejected(report.outcome),
+                  .inlier_share = founding ? 1.0F : report.inlier_share,
+                  .agreement = localiser.agreement(),
+                  .leapt = leapt});
+  if (accepted) {
     direction_unobservable_ = !founding && report.outcome == MatchOutcome::degenerate;
     const Matrix3f covariance = localiser.match_covariance();
     position_variance_m2_ = founding ? 0.0F : covariance(0, 0) + covariance(1, 1);
-  } else {
-    ++rejected_streak_;
-    accepted_streak_ = 0;
   }
   HealthInputs inputs{.now = stamp};
-  inputs.accepted_streak = accepted_streak_;
-  inputs.rejected_streak = rejected_streak_;
-  inputs.rejection = why_rejected(report.outcome);
+  inputs.accepted_streak = trust_.accepted_streak();
+  inputs.rejected_streak = trust_.rejected_streak();
+  inputs.rejection = trust_.rejection();
   inputs.direction_unobservable = direction_unobservable_;
+  inputs.unproven = trust_.unproven();
+  inputs.unverified = trust_.unproven() && localiser.unverified();
+  inputs.ambiguous = localiser.ambiguous();
   inputs.position_variance_m2 = position_variance_m2_;
-  static_cast<void>(monitor_.update(inputs));
+  const HealthTransition change = monitor_.update(inputs);
+  const auto lost = [](HealthState state) {
+    return state == HealthState::lost || state == HealthState::relocalising;
+  };
+  if (lost(change.to) && !lost(change.from)) { trust_.distrust(); }
 }
 
 }  // namespace picolo::tool

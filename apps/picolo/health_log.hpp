@@ -12,10 +12,9 @@
 #include "picolo/host/json.hpp"
 #include "picolo/localisation/health.hpp"
 #include "picolo/localisation/localiser.hpp"
+#include "picolo/localisation/pose_trust.hpp"
 
 namespace picolo::tool {
-
-inline constexpr std::size_t kHealthStates = 5;
 
 struct HealthChange {
   double stamp_s = 0.0;  ///< of the scan, as logged
@@ -42,20 +41,29 @@ struct HealthLog {
 /// One line a change, at most a few dozen, then how many more; and the share of each state.
 [[nodiscard]] std::string to_lines(const HealthLog& log);
 
+/// How far matches of a log are trusted, whose scans may lie a metre of bad odometry apart.
+/// `in_given_map`: what contradicts it tells that the pose is wrong, there is nothing new to see.
+[[nodiscard]] MatchTrust trust_of_log(bool in_given_map);
+
 /// The library's monitor over a log without cycle: judged once a scan, by the matches alone, since
 /// the scans of a log may lie seconds apart.
 class ScanHealth {
  public:
-  ScanHealth();
+  explicit ScanHealth(bool in_given_map);
+  /// Before the first scan, and after the match of each: in a given map, a pose that is in doubt is
+  /// searched for.
+  void guide(LocaliserCore& localiser) const;
   /// After the match of a scan. `founding`: the scan founded the map, there was nothing to match.
   void judge(Timestamp stamp, const LocaliserCore& localiser, bool founding);
   [[nodiscard]] HealthState state() const { return monitor_.state(); }
   [[nodiscard]] HealthReason reason() const { return monitor_.reason(); }
 
  private:
+  bool in_given_map_;
+  MatchTrust limits_;
+  PoseTrust trust_;
   HealthMonitor monitor_;
-  int accepted_streak_ = 0;
-  int rejected_streak_ = 0;
+  bool leapt_ = false;
   float position_variance_m2_ = 0.0F;
   bool direction_unobservable_ = false;
 };

@@ -4,6 +4,8 @@
 
 #include <numbers>
 
+#include "health_log.hpp"
+
 namespace picolo::tool {
 namespace {
 
@@ -33,15 +35,9 @@ ControllerConfig controller_config(const ReplayInput& input, const ReplaySetting
   config.undistort.limits = input.scans.front().limits;
   config.localiser = settings.localiser;
   config.start_map_T_base = settings.map_T_start.value_or(input.scans.front().odom_T_base);
-  // Scans of a log may lie a metre of bad odometry apart: corrections that would be contradictions
-  // ten times a second are in order here, as they are in direct replay.
-  config.trust = {.good_inlier_share = 0.0F,
-                  .max_correction_m = 100.0F,
-                  .max_correction_rad = 4.0F,
-                  .max_pull_m = 1e6F,
-                  .max_pull_rad = 1e6F,
-                  .max_wheel_turn_rad = 1e6F,
-                  .max_unmatched = 1h};
+  // Corrections that would be contradictions ten times a second are in order here, as they are in
+  // direct replay.
+  config.trust = trust_of_log(!settings.map.empty());
   config.plausibility.max_wheel_acceleration_mps2 = 1e6F;  // its script starts and stops at once
   // The lidar of the player turns only while the vehicle stands, and it drives as long as it takes.
   config.health.max_match_age = 1h;

@@ -14,6 +14,7 @@ const char* to_string(HealthState state) {
     case HealthState::degraded: return "degraded";
     case HealthState::lost: return "lost";
     case HealthState::fault: return "fault";
+    case HealthState::relocalising: return "relocalising";
   }
   return "unknown";
 }
@@ -35,6 +36,8 @@ const char* to_string(HealthReason reason) {
     case HealthReason::sensors_disagree: return "sensors_disagree";
     case HealthReason::tilted: return "tilted";
     case HealthReason::turn_unverified: return "turn_unverified";
+    case HealthReason::ambiguous: return "ambiguous";
+    case HealthReason::unproven: return "unproven";
   }
   return "unknown";
 }
@@ -64,7 +67,13 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (blind) {
     return {Level::lost, lidar_silent ? HealthReason::lidar_silent : HealthReason::wheels_silent};
   }
-  if (inputs.rejected_streak >= config_.lost_rejections) { return {Level::lost, inputs.rejection}; }
+  if (inputs.unverified) {
+    return {Level::lost, inputs.ambiguous ? HealthReason::ambiguous : HealthReason::relocalising};
+  }
+  const bool contradicted = inputs.rejection != HealthReason::too_few_points;
+  if (inputs.rejected_streak >= config_.lost_rejections && contradicted) {
+    return {Level::lost, inputs.rejection};
+  }
   if (vague) {
     return {Level::lost, lidar_silent ? HealthReason::lidar_silent : HealthReason::match_rejected};
   }
@@ -75,6 +84,7 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (inputs.rejected_streak >= config_.degraded_rejections) {
     return {Level::impaired, inputs.rejection};
   }
+  if (inputs.unproven) { return {Level::impaired, HealthReason::unproven}; }
   if (inputs.match_age > config_.max_match_age) {
     return {Level::impaired,
             inputs.relocalising ? HealthReason::relocalising : HealthReason::match_rejected};
@@ -111,20 +121,38 @@ void HealthMonitor::enter(HealthState state, HealthReason reason) {
   reason_ = reason;
 }
 
+// Without sweeps there is nothing to search with; between two searches it is relocalising all the
+// same.
+void HealthMonitor::lose(const HealthInputs& inputs, const Finding& finding) {
+  const bool lost = finding.level == Level::lost;
+  const bool blind = finding.reason == HealthReason::lidar_silent ||
+                     (lost && (finding.reason == HealthReason::wheels_silent ||
+                               finding.reason == HealthReason::too_few_points));
+  if (blind) { return enter(HealthState::lost, finding.reason); }
+  if (lost && finding.reason == HealthReason::ambiguous) {
+    return enter(HealthState::relocalising, finding.reason);
+  }
+  if (inputs.relocalising || inputs.unverified || state_ == HealthState::relocalising) {
+    return enter(HealthState::relocalising, HealthReason::relocalising);
+  }
+  enter(HealthState::lost, lost ? finding.reason : reason_);
+}
+
 void HealthMonitor::advance(const HealthInputs& inputs, const Finding& finding) {
   if (state_ == HealthState::fault) { return; }
   if (finding.level == Level::broken) { return enter(HealthState::fault, finding.reason); }
   const bool clear = finding.level == Level::clear;
   switch (state_) {
     case HealthState::initialising:
-      if (finding.level == Level::lost || inputs.accepted_streak < config_.initial_matches) {
+      if (finding.level == Level::lost || inputs.unproven ||
+          inputs.accepted_streak < config_.initial_matches) {
         return enter(state_, clear ? HealthReason::starting : finding.reason);
       }
       return clear ? enter(HealthState::tracking, HealthReason::none)
                    : enter(HealthState::degraded, finding.reason);
     case HealthState::tracking:
     case HealthState::degraded:
-      if (finding.level == Level::lost) { return enter(HealthState::lost, finding.reason); }
+      if (finding.level == Level::lost) { return lose(inputs, finding); }
       if (!clear) { return enter(HealthState::degraded, finding.reason); }
       if (inputs.accepted_streak >= config_.recover_matches &&
           inputs.now - clear_since_ >= config_.recover_after) {
@@ -132,11 +160,11 @@ void HealthMonitor::advance(const HealthInputs& inputs, const Finding& finding) 
       }
       return;  // the cause is gone, but not for long enough
     case HealthState::lost:
+    case HealthState::relocalising:
       if (finding.level != Level::lost && inputs.accepted_streak >= config_.relocalised_matches) {
         return enter(HealthState::degraded, clear ? HealthReason::relocalising : finding.reason);
       }
-      if (inputs.relocalising) { return enter(state_, HealthReason::relocalising); }
-      return enter(state_, finding.level == Level::lost ? finding.reason : reason_);
+      return lose(inputs, finding);
     case HealthState::fault: return;
   }
 }

@@ -30,12 +30,12 @@ Matrix3f scaled(const Matrix3f& matrix, float factor) {
   return result;
 }
 
-bool usable(MatchOutcome outcome) {
+}  // namespace
+
+bool LocaliserCore::usable(MatchOutcome outcome) {
   return outcome == MatchOutcome::converged || outcome == MatchOutcome::iteration_limit ||
          outcome == MatchOutcome::degenerate;
 }
-
-}  // namespace
 
 MapConfig coarse_map_config(const MapConfig& fine) {
   MapConfig coarse = fine;
@@ -52,7 +52,8 @@ LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine
       surfaces_(surfaces),
       coarse_matcher_(config.coarse),
       fine_matcher_(config.fine),
-      search_(config.search.correlative),
+      searches_(config.search.correlative),
+      relocaliser_(config_.relocalise, fine, coarse),
       heading_(config.heading) {}
 
 void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base,
@@ -62,6 +63,7 @@ void LocaliserCore::set_pose(const Pose2d& map_T_base, const Pose2d& odom_T_base
   map_T_odom_ = map_T_base * inverse(odom_T_base);
   accepted_map_T_base_ = map_T_base;
   accepted_odom_T_base_ = odom_T_base;
+  if (started_ || localises_only_) { verify(true); }
 }
 
 Status LocaliserCore::begin_adopting() {
@@ -71,6 +73,7 @@ Status LocaliserCore::begin_adopting() {
   coarse_.mark_all_stale();
   adopted_rows_ = 0;
   localises_only_ = true;
+  verify(true);
   return Status::ok;
 }
 
@@ -118,6 +121,8 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     coarse_.reset(prediction_.x_m, prediction_.y_m);
     report_ = {};
     accepted_ = true;
+    unverified_ = false;  // there is no map to compare with
+    agreement_ = 1.0F;
     last_correction_ = {};
     map_T_base_ = prediction_;
     reference_ = sweep_.reference;
@@ -128,7 +133,7 @@ Status LocaliserCore::begin(const UndistortedSweep& sweep, bool odometry_valid) 
     return Status::ok;
   }
   started_ = true;
-  if (!localises_only_) {
+  if (!localises_only_ && !map_held_) {
     fine_.follow(prediction_.x_m, prediction_.y_m);
     coarse_.follow(prediction_.x_m, prediction_.y_m);
   }
@@ -152,6 +157,8 @@ void LocaliserCore::start_match() {
   searched_wide_ = !config_.search.enabled;
   has_report_ = false;
   candidate_ = kMaxCandidates;
+  relocalisation_ = Relocalisation::none;
+  settled_ = false;
   request_ = {};
   request_.points = sweep_.points;
   request_.prior = prior_about(to_window(fine_.window(), prediction_));
@@ -187,88 +194,28 @@ bool LocaliserCore::match_step() {
       }
       return false;
     case Stage::search:
-      if (!search_.step(config_.search.lookups_per_step)) { return false; }
+      if (!searches_.near().step(config_.search.lookups_per_step)) { return false; }
       candidate_ = 0;
+      break;
+    case Stage::relocalise:
+      if (!relocaliser_.step(searches_.anywhere())) { return false; }
+      searches_.use_near(config_.search.correlative);
+      relocalisation_ = Relocalisation::refining;
       break;
     case Stage::refine:
       if (!fine_matcher_.step()) { return false; }
-      consider(fine_matcher_.report());
+      if (relocalisation_ == Relocalisation::none) {
+        consider(fine_matcher_.report());
+      } else {
+        judge_place(fine_matcher_.report());
+      }
       break;
   }
-  if (next_candidate() || begin_search() || begin_wide_search()) { return false; }
-  conclude();
-  return true;
-}
-
-/// Keeps the better of the reports: the cheaper one, or after a wide search, which knows no prior,
-/// the one that fits clearly more.
-void LocaliserCore::consider(const MatchReport& report) {
-  const bool wide = config_.search.enabled && searched_wide_;
-  const bool better =
-      !has_report_ || !usable(report_.outcome) ||
-      (wide ? report.inlier_share >=
-                  report_.inlier_share + (doubted_ ? 0.0F : config_.search.wide_gain)
-            : report.cost < report_.cost);
-  if (has_report_ && (!usable(report.outcome) || !better)) { return; }
-  report_ = report;
-  has_report_ = true;
-}
-
-bool LocaliserCore::next_candidate() {
-  if (candidate_ >= search_.candidates().size()) { return false; }
-  refine(search_.candidates()[candidate_].pose);
-  ++candidate_;
-  return true;
-}
-
-bool LocaliserCore::fits() const {
-  if (!usable(report_.outcome)) { return false; }
-  const SearchConfig& search = config_.search;
-  const float enough = doubted_ ? search.doubted_inlier_share : search.below_inlier_share;
-  if (report_.inlier_share >= enough) { return true; }
-  return report_.inlier_share >= config_.min_inlier_share && agreement_of(report_) >= enough;
-}
-
-bool LocaliserCore::begin_search() {
-  if (searched_) { return false; }
-  const SearchConfig& search = config_.search;
-  const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
-  const double turn = motion.theta_rad < 0.0 ? -motion.theta_rad : motion.theta_rad;
-  const bool far = !with_odometry_ ||
-                   hypotenuse(motion.x_m, motion.y_m) > static_cast<double>(search.after_m) ||
-                   turn > static_cast<double>(search.after_rad);
-  if (!far && fits()) { return false; }
-  searched_ = true;
-  search_.lengthen_steps(1);
-  const SearchWindow window{
-      .centre = request_.prior.pose,
-      .half_translation_m =
-          std::clamp(3.0F * translation_sigma_m_, search.min_half_m, search.max_half_m),
-      .half_rotation_rad =
-          std::clamp(3.0F * rotation_sigma_rad_, search.min_half_rad, search.max_half_rad)};
-  if (search_.begin(fine_.field(), sweep_.points, window, request_.prior) != Status::ok) {
+  if (next_candidate() || begin_search() || begin_wide_search() || begin_relocalisation() ||
+      next_place()) {
     return false;
   }
-  ++counters_.searched;
-  stage_ = Stage::search;
-  return true;
-}
-
-bool LocaliserCore::begin_wide_search() {
-  if (searched_wide_) { return false; }
-  const SearchConfig& search = config_.search;
-  if (fits()) { return false; }
-  searched_wide_ = true;
-  search_.lengthen_steps(doubted_ ? 2 : 1);
-  request_.prior.information = {};
-  const SearchWindow window{
-      .centre = to_window(fine_.window(), accepted_map_T_base_),
-      .half_translation_m = std::min(doubted_ ? 2.0F * search.wide_half_m : search.wide_half_m,
-                                     search_.max_half_m(fine_.field())),
-      .half_rotation_rad = search.wide_half_rad};
-  if (search_.begin(fine_.field(), sweep_.points, window) != Status::ok) { return false; }
-  ++counters_.searched_wide;
-  stage_ = Stage::search;
+  conclude();
   return true;
 }
 
@@ -276,19 +223,23 @@ void LocaliserCore::conclude() {
   ++counters_.outcomes[static_cast<std::size_t>(report_.outcome)];
   accepted_ = usable(report_.outcome) && report_.inlier_share >= config_.min_inlier_share;
   reference_ = sweep_.reference;
+  agreement_ = 0.0F;
+  if (accepted_ && !(doubted_ && unverified_)) {
+    const bool poor = report_.inlier_share < config_.search.below_inlier_share;
+    agreement_ = doubted_ || poor ? agreement_of(report_) : report_.inlier_share;
+  }
+  note_fit();
   if (!accepted_) {
     ++counters_.rejected;
     map_T_base_ = prediction_;
     phase_ = LocaliserPhase::idle;
     return;
   }
-  agreement_ = report_.inlier_share;
-  if (doubted_) { agreement_ = agreement_of(report_); }
   ++counters_.matched;
   map_T_base_ = to_map(fine_.window(), report_.pose);
   last_correction_ = to_f32(between(prediction_, map_T_base_));
   map_T_odom_ = map_T_base_ * inverse(sweep_.odom_T_base);
-  if (config_.learn_heading && with_odometry_) {
+  if (config_.learn_heading && with_odometry_ && !guessed_ && !settled_) {
     const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
     const double turn = between(accepted_map_T_base_, map_T_base_).theta_rad;
     heading_.update(motion, turn, static_cast<double>(report_.covariance(2, 2)) + 1e-4);

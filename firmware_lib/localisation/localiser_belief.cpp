@@ -44,13 +44,15 @@ Matrix3f LocaliserCore::motion_covariance(const Pose2d& motion) const {
   const Pose2f back = to_f32(inverse(motion));  // the way in the axes of its end
   const float squared_distance = square(back.x_m) + square(back.y_m);
   const float squared_turn = square(back.theta_rad);
-  const float still =
+  float still =
       square(noise.translation_base_m) + square(noise.translation_per_rad_m) * squared_turn;
+  if (guessed_) { still += square(noise.guessed_translation_m); }
   const float along = still + square(noise.translation_per_m) * squared_distance;
   float turn = square(noise.rotation_base_rad) +
                square(noise.rotation_per_m_rad) * squared_distance +
                square(noise.rotation_per_rad) * squared_turn;
   if (config_.learn_heading) { turn += static_cast<float>(heading_.variance(motion)); }
+  if (guessed_) { turn += square(noise.guessed_rotation_rad); }
   const float across = still + turn * squared_distance / 3.0F;
   Matrix3f covariance = Matrix3f::diagonal(still, still, turn);
   if (squared_distance > 0.0F) {

@@ -111,6 +111,13 @@ std::size_t RollingMapCore::index_of(int column, int row) const {
          static_cast<std::size_t>(column);
 }
 
+std::span<std::uint8_t> RollingMapCore::lend_scan_memory() {
+  first_changed_row_ = 0;
+  last_changed_row_ = window_.height - 1;
+  void* const bytes = storage_.changed.data();
+  return {static_cast<std::uint8_t*>(bytes), storage_.changed.size_bytes()};
+}
+
 void RollingMapCore::begin_scan() {
   if (last_changed_row_ >= first_changed_row_) {
     const std::size_t first = index_of(0, first_changed_row_) / 32;

@@ -28,7 +28,7 @@ bool fits(const DistanceFieldView& field, const MaxPyramidView& pyramid) {
 
 Status PoseSearch::begin(const DistanceFieldView& field, const MaxPyramidView& pyramid,
                          const PointsView& points, const SearchWindow& window,
-                         const PosePrior& prior) {
+                         const PosePrior& prior, const PoseSearchArea& area) {
   phase_ = Phase::done;
   exact_ = false;
   bounded_ = false;
@@ -39,15 +39,14 @@ Status PoseSearch::begin(const DistanceFieldView& field, const MaxPyramidView& p
   }
   if (points.size() == 0) { return Status::degenerate; }
   point_count_ = std::min(points.size(), static_cast<std::size_t>(config_.max_points));
-  tree_.begin(field, pyramid, points, point_count_, window, prior, config_);
+  tree_.begin(field, pyramid, points, point_count_, window, prior, config_, area);
   top_level_ = pyramid.levels - 1;
   const int squares = (2 * tree_.half_cells()) / MaxPyramidView::size_of(top_level_) + 1;
   if (2 * tree_.half_angles() + 1 > static_cast<int>(kMaxSearchAngles) ||
       squares > static_cast<int>(kMaxRowSquares)) {
     return Status::full;
   }
-  const float full_score = static_cast<float>(kFullScore) * static_cast<float>(point_count_);
-  search_.begin(config_.order, round_to_i32(config_.min_score * full_score, 0, 1 << 20));
+  search_.begin(config_.order, score_units(config_.min_score));
   angle_bounds_.fill(0);
   angle_ = -tree_.half_angles();
   row_ = -tree_.half_cells();
@@ -55,26 +54,36 @@ Status PoseSearch::begin(const DistanceFieldView& field, const MaxPyramidView& p
   return Status::ok;
 }
 
-std::size_t PoseSearch::bound_row(int angle, int row) {
-  const int size = MaxPyramidView::size_of(top_level_);
-  std::size_t count = 0;
-  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
-    PoseNode& square = squares_[count];
-    square = {0, static_cast<std::int16_t>(angle), static_cast<std::int16_t>(top_level_),
-              static_cast<std::int16_t>(x), static_cast<std::int16_t>(row)};
-    square.bound = tree_.bound_of(square);
-    ++count;
+void PoseSearch::begin_elsewhere(const PoseExclusion& excluded, float min_score) {
+  if (!exact_) { return; }
+  exact_ = false;
+  tree_.exclude(excluded);
+  search_.begin(config_.order, score_units(min_score));
+  for (std::uint16_t& bound : angle_bounds_) {
+    bound = static_cast<std::uint16_t>(bound & ~kSearched);
   }
-  return count;
+  phase_ = Phase::choosing;
+}
+
+std::int32_t PoseSearch::score_units(float score) const {
+  const float full_score = static_cast<float>(kFullScore) * static_cast<float>(point_count_);
+  return round_to_i32(score * full_score, 0, 1 << 20);
+}
+
+PoseNode PoseSearch::bounded_square(int x) {
+  PoseNode square{0, static_cast<std::int16_t>(angle_), static_cast<std::int16_t>(top_level_),
+                  static_cast<std::int16_t>(x), static_cast<std::int16_t>(row_)};
+  square.bound = tree_.bound_of(square);
+  return square;
 }
 
 void PoseSearch::bound_next_row() {
-  const std::size_t count = bound_row(angle_, row_);
   std::uint16_t& bound = angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())];
-  for (std::size_t i = 0; i < count; ++i) {
-    bound = std::max(bound, static_cast<std::uint16_t>(squares_[i].bound));
+  const int size = MaxPyramidView::size_of(top_level_);
+  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
+    bound = std::max(bound, static_cast<std::uint16_t>(bounded_square(x).bound));
   }
-  row_ += MaxPyramidView::size_of(top_level_);
+  row_ += size;
   if (row_ <= tree_.half_cells()) { return; }
   row_ = -tree_.half_cells();
   ++angle_;
@@ -84,12 +93,12 @@ void PoseSearch::bound_next_row() {
   }
 }
 
-// The next angle whose bound is above the best pose; an angle that was searched has bound 0.
+// The next angle whose bound is above the best pose, among those that were not searched.
 void PoseSearch::choose_angle() {
   std::size_t chosen = angle_bounds_.size();
   std::int32_t highest = search_.best();
   for (std::size_t i = 0; i < angle_bounds_.size(); ++i) {
-    if (angle_bounds_[i] <= highest) { continue; }
+    if ((angle_bounds_[i] & kSearched) != 0 || angle_bounds_[i] <= highest) { continue; }
     chosen = i;
     if (config_.order == ChildOrder::index) { break; }
     highest = angle_bounds_[i];
@@ -105,21 +114,24 @@ void PoseSearch::choose_angle() {
 }
 
 void PoseSearch::push_next_row() {
-  const std::size_t count = bound_row(angle_, row_);
+  const int size = MaxPyramidView::size_of(top_level_);
+  const std::span<PoseNode> squares = search_.room();  // the stack is empty here
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if (squares_[i].bound <= search_.best()) { continue; }
-    squares_[kept] = squares_[i];
+  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
+    const PoseNode square = bounded_square(x);
+    if (square.bound <= search_.best()) { continue; }
+    squares[kept] = square;
     ++kept;
   }
-  static_cast<void>(search_.push({squares_.data(), kept}));  // the stack is empty here
-  row_ += MaxPyramidView::size_of(top_level_);
+  search_.push_written(kept);
+  row_ += size;
   phase_ = Phase::descending;
 }
 
 bool PoseSearch::step(std::uint32_t max_nodes) {
-  const std::uint32_t start = tree_.nodes();
-  while (phase_ != Phase::done && tree_.nodes() - start < std::max<std::uint32_t>(max_nodes, 1)) {
+  const auto work = [this] { return tree_.nodes() + tree_.skipped(); };
+  const std::uint32_t start = work();
+  while (phase_ != Phase::done && work() - start < std::max<std::uint32_t>(max_nodes, 1)) {
     if (config_.max_nodes > 0 && tree_.nodes() >= config_.max_nodes) {
       phase_ = Phase::done;
       break;
@@ -133,7 +145,7 @@ bool PoseSearch::step(std::uint32_t max_nodes) {
         if (search_.step(tree_)) { break; }
         phase_ = Phase::rows;
         if (row_ > tree_.half_cells()) {
-          angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())] = 0;
+          angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())] |= kSearched;
           phase_ = Phase::choosing;
         }
         break;
@@ -156,6 +168,7 @@ PoseSearchReport PoseSearch::report() const {
   if (bounded_) {
     std::int32_t bound = search_.bound_left();
     for (const std::uint16_t angle_bound : angle_bounds_) {
+      if ((angle_bound & kSearched) != 0) { continue; }
       bound = std::max(bound, static_cast<std::int32_t>(angle_bound));
     }
     report.upper_bound = static_cast<float>(exact_ ? search_.best() : bound) * per_unit;

@@ -27,7 +27,8 @@ std::int32_t least_over(int low, int high, float wanted, PenaltyAt penalty_at) {
 
 void PoseTree::begin(const DistanceFieldView& field, const MaxPyramidView& pyramid,
                      const PointsView& points, std::size_t point_count, const SearchWindow& window,
-                     const PosePrior& prior, const PoseSearchConfig& config) {
+                     const PosePrior& prior, const PoseSearchConfig& config,
+                     const PoseSearchArea& area) {
   field_ = field;
   pyramid_ = pyramid;
   points_ = points;
@@ -40,6 +41,43 @@ void PoseTree::begin(const DistanceFieldView& field, const MaxPyramidView& pyram
   half_angles_ = round_to_i32(window.half_rotation_rad / config.rotation_step_rad, 0, kFarCell);
   turned_ = false;
   nodes_ = 0;
+  skipped_ = 0;
+  area_ = area;
+  excluded_ = {};
+  centre_column_ = floor_to_i32(window.centre.x_m * field.cells_per_m, -kFarCell, kFarCell);
+  centre_row_ = floor_to_i32(window.centre.y_m * field.cells_per_m, -kFarCell, kFarCell);
+}
+
+// A cell of the area more on each side: a base close to a wall shares its coarse cell with the
+// wall.
+bool PoseTree::may_stand_in(const Node& node, int size) const {
+  if (area_.log_odds == nullptr) { return true; }
+  const int column = centre_column_ + node.x + area_.offset_x;
+  const int row = centre_row_ + node.y + area_.offset_y;
+  const int first_i = std::max((column >> area_.shift) - 1, 0);
+  const int first_j = std::max((row >> area_.shift) - 1, 0);
+  const int last_i = std::min(((column + size - 1) >> area_.shift) + 1, area_.width - 1);
+  const int last_j = std::min(((row + size - 1) >> area_.shift) + 1, area_.height - 1);
+  for (int j = first_j; j <= last_j; ++j) {
+    const std::int8_t* const line = area_.log_odds + static_cast<std::ptrdiff_t>(j) * area_.width;
+    for (int i = first_i; i <= last_i; ++i) {
+      if (line[i] < 0) { return true; }
+    }
+  }
+  return false;
+}
+
+bool PoseTree::excludes(const Node& node, int size) const {
+  if (excluded_.within_m <= 0.0F) { return false; }
+  const Pose2f low = pose_of(node);
+  const float turn_rad = wrap_angle(low.theta_rad - excluded_.pose.theta_rad);
+  if (turn_rad > excluded_.within_rad || turn_rad < -excluded_.within_rad) { return false; }
+  const float side_m = static_cast<float>(size - 1) / field_.cells_per_m;
+  const float x_m = low.x_m - excluded_.pose.x_m;
+  const float y_m = low.y_m - excluded_.pose.y_m;
+  const float far_x_m = std::max(x_m + side_m, -x_m);
+  const float far_y_m = std::max(y_m + side_m, -y_m);
+  return far_x_m * far_x_m + far_y_m * far_y_m <= excluded_.within_m * excluded_.within_m;
 }
 
 Pose2f PoseTree::pose_of(const Node& node) const {
@@ -84,19 +122,22 @@ std::int32_t PoseTree::least_penalty(const Node& node, int size) const {
 }
 
 std::int32_t PoseTree::bound_of(const Node& node) {
+  const int size = node.level < 0 ? 1 : MaxPyramidView::size_of(node.level);
+  if (!may_stand_in(node, size) || excludes(node, size)) {
+    ++skipped_;
+    return 0;
+  }
   turn_to(node.angle);
   ++nodes_;
   const std::uint8_t* cells = field_.cells;
   int width = field_.width;
   int height = field_.height;
   int shift = 0;
-  int size = 1;
   if (node.level >= 0) {
     const auto level = static_cast<std::size_t>(node.level);
     cells = pyramid_.nearest[level];
     width = pyramid_.width[level];
     height = pyramid_.height[level];
-    size = MaxPyramidView::size_of(node.level);
     shift = 2 + node.level;
   }
   std::int32_t sum = 0;

@@ -241,7 +241,8 @@ void add_replay(CLI::App& app, Action& action) {
   command
       ->add_option(
           "--start", options->start,
-          "Pose of the vehicle in the map at the first scan; by default the log's odometry")
+          "Pose of the vehicle in the map at the first scan, by default the log's odometry; with "
+          "--map it decides between places that look alike")
       ->expected(3)
       ->type_name("X Y YAW");
   command
@@ -286,7 +287,7 @@ void add_replay(CLI::App& app, Action& action) {
       "  picolo calibrate linear intel.clf.gz --out cal\n"
       "  picolo replay intel.clf.gz --calibration cal/calibration.json\n"
       "  picolo replay monday.clf --out mon && picolo replay tuesday.clf --map mon/map.yaml\n"
-      "      the second drive is localised in the map of the first, which stays as it is\n"
+      "      the second drive finds itself in the map of the first, which stays as it is\n"
       "  picolo replay intel.clf.gz --matcher ndt\n"
       "      odometry, one match a scan, map update: what a matcher does without the rest\n"
       "  picolo replay hand-held.clf.gz --no-odometry --out /tmp/lidar-only\n"

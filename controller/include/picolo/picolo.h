@@ -55,7 +55,8 @@ typedef enum picolo_health {
   PICOLO_TRACKING = 1,
   PICOLO_DEGRADED = 2,
   PICOLO_LOST = 3,
-  PICOLO_FAULT = 4
+  PICOLO_FAULT = 4,
+  PICOLO_RELOCALISING = 5
 } picolo_health;
 
 typedef struct picolo_config {

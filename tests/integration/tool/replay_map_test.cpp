@@ -101,6 +101,47 @@ TEST(ReplayMap, TheStartMayBeAnywhereInTheFrameOfTheMap) {
       << "found from a start that was off";
 }
 
+TEST(ReplayMap, AWrongStartIsFoundOutAtTheFirstScan) {
+  const Room room;
+  for (const std::vector<std::string>& start :
+       {std::vector<std::string>{"--start", "2.5", "-1.5", "2.0"}, {"--start", "40", "40", "0"}}) {
+    std::vector<std::string> more{"--map", "picolo-out/map.yaml"};
+    more.insert(more.end(), start.begin(), start.end());
+    const auto run = room.localise(more);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    EXPECT_EQ(run.json()["matched"], 120);
+    EXPECT_LT(run.json()["ape"]["max"].get<double>(), 0.05) << "also that of the first scan";
+    EXPECT_GE(run.json()["health"]["scans"]["tracking"].get<int>(), 115);
+  }
+}
+
+TEST(ReplayMap, AKidnappedVehicleFindsItselfAndTheStateSaysSo) {
+  const Room room;
+  const test::RoomLog log =
+      test::make_room_log({.scans = 70, .kidnapped_at = 30, .kidnapped_by = 50});
+  const std::string file = room.folder.write("kidnapped.clf", log.carmen);
+  const std::string truth = room.folder.write("kidnapped.tum", log.truth);
+  for (const std::vector<std::string>& wire : {std::vector<std::string>{}, {"--wire"}}) {
+    std::vector<std::string> arguments{"replay", file,          "--map", "picolo-out/map.yaml",
+                                       "--json", "--reference", truth,   "--out",
+                                       "kid"};
+    arguments.insert(arguments.end(), wire.begin(), wire.end());
+    const auto run = run_tool(room.folder, arguments);
+    ASSERT_EQ(run.exit_code, 0) << run.err;
+    const host::Json json = run.json();
+    // The scans before it was told pull at the alignment.
+    EXPECT_LT(json["ape"]["median"].get<double>(), 0.06);
+    bool told = false;
+    for (const auto& change : json["health"]["changes"]) {
+      const auto scan = change["scan"].get<int>();
+      told |= scan >= 30 && scan <= 32 && change["from"] == "tracking";
+    }
+    EXPECT_TRUE(told) << json["health"].dump();
+    EXPECT_EQ(json["health"]["changes"].back()["to"], "tracking");
+    EXPECT_GE(json["health"]["scans"]["tracking"].get<int>(), 45);
+  }
+}
+
 TEST(ReplayMap, WhatCannotBeUsedIsNamed) {
   const Room room;
   EXPECT_EQ(room.localise({"--map", "nothing.yaml"}).exit_code, 3);

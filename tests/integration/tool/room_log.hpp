@@ -27,6 +27,8 @@ struct RoomLogOptions {
   double first_stamp_s = 100.0;
   double period_s = 0.1;  ///< may be zero or negative
   bool odometry = true;   ///< otherwise zeros
+  int kidnapped_at = 0;   ///< before this scan the vehicle is carried on; 0: never
+  int kidnapped_by = 0;   ///< ... by so many scans of its way, of which the wheels know nothing
 };
 
 class RoomWorld {
@@ -72,10 +74,11 @@ inline RoomLog make_room_log(const RoomLogOptions& options = {}) {
   Pose2d odometry;
   Pose2d last{kRadius, 0.0, std::numbers::pi / 2};
   for (int i = 0; i < options.scans; ++i) {
-    const double angle = kStep * i;
+    const bool carried = options.kidnapped_at > 0 && i >= options.kidnapped_at;
+    const double angle = kStep * (carried ? i + options.kidnapped_by : i);
     const Pose2d truth{kRadius * std::cos(angle), kRadius * std::sin(angle),
                        std::remainder(angle + std::numbers::pi / 2, 2.0 * std::numbers::pi)};
-    Pose2d step = between(last, truth);
+    Pose2d step = i == options.kidnapped_at ? Pose2d{} : between(last, truth);
     step.theta_rad *= 1.03;
     if (options.odometry) { odometry = odometry * step; }
     last = truth;

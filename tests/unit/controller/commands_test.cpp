@@ -55,7 +55,8 @@ TEST(Commands, SetPoseMovesThePublishedPoseAndTrustBeginsAnew) {
   EXPECT_EQ(estimate.state, HealthState::initialising);
   EXPECT_GE(estimate.match_covariance(0, 0), 0.0099F) << "a pose that is set is not exact";
   EXPECT_EQ(rig.controller.commands().counters().accepted, 1U);
-  EXPECT_EQ(rig.events[rig.events.size() - 1].code, EventCode::pose_set);
+  EXPECT_EQ(rig.events[rig.events.size() - 2].code, EventCode::pose_set);
+  EXPECT_EQ(estimate.reason, HealthReason::unproven) << "what is seen must fit first";
 }
 
 TEST(Commands, SetPoseWithAValueThatIsNotAvailableIsRefused) {

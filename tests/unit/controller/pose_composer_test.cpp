@@ -92,32 +92,32 @@ TEST_F(PoseComposerTest, GivenACorrectionThenTheJumpIsToldInBaseAndJudged) {
   const PoseEstimate estimate = made.compose(kStart, {kStart, odometry}, kStanding);
   EXPECT_NEAR(estimate.last_jump.x_m, 0.06, 1e-6) << "forward in base";
   EXPECT_NEAR(estimate.last_jump.y_m, 0.0, 1e-6);
-  EXPECT_TRUE(made.jumped());
+  EXPECT_TRUE(made.correction().jumped);
   EXPECT_EQ(made.jump_mm(), 60);
   made.correct(
       {.accepted = true, .odom_T_base = odometry, .map_T_base = {10.0, 0.06, 1.5707963267948966}},
       {kStart, odometry});
-  EXPECT_FALSE(made.jumped()) << "said the same again";
+  EXPECT_FALSE(made.correction().jumped) << "said the same again";
   made.correct(
       {.accepted = true, .odom_T_base = odometry, .map_T_base = {10.0, 0.06, 1.5307963267948966}},
       {kStart, odometry});
-  EXPECT_TRUE(made.jumped()) << "turned by more than 0.035 rad";
+  EXPECT_TRUE(made.correction().jumped) << "turned by more than 0.035 rad";
 }
 
 TEST_F(PoseComposerTest, GivenCorrectionsThatKeepPointingTheSameWayThenAPull) {
   PoseComposer made = composer();
   double offset_m = 0.0;
   int matches = 0;
-  for (; !made.pulled() && matches < 100; ++matches) {
+  for (; !made.correction().pulled && matches < 100; ++matches) {
     offset_m += 0.03;  // each below the limit of a jump
     made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
-    EXPECT_FALSE(made.jumped());
+    EXPECT_FALSE(made.correction().jumped);
   }
   EXPECT_EQ(matches, 3) << "0.03 m + 0.97 of what was before, beyond 0.07 m";
   for (int i = 0; i < 10; ++i) {
     made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, 0.0}}, {kStart, {}});
   }
-  EXPECT_FALSE(made.pulled()) << "it fades";
+  EXPECT_FALSE(made.correction().pulled) << "it fades";
 }
 
 TEST_F(PoseComposerTest, GivenWheelsThatTurnAloneThenTurnsMayBeWrongerAndAreNotBelievedFurther) {
@@ -125,10 +125,10 @@ TEST_F(PoseComposerTest, GivenWheelsThatTurnAloneThenTurnsMayBeWrongerAndAreNotB
   MatchVerdict verdict{.accepted = true, .turned_by_gyro = false};
   verdict.map_T_base = {0.0, 0.0, 0.06};
   made.correct(verdict, {kStart, {}});
-  EXPECT_FALSE(made.jumped()) << "0.035 rad with a gyro";
+  EXPECT_FALSE(made.correction().jumped) << "0.035 rad with a gyro";
   verdict.map_T_base = {0.0, 0.0, 0.16};
   made.correct(verdict, {kStart, {}});
-  EXPECT_TRUE(made.jumped());
+  EXPECT_TRUE(made.correction().jumped);
   EXPECT_FALSE(made.turn_unverified(false));
   (void)made.compose(kStart + 100ms, {kStart + 100ms, {0.0, 0.0, 0.05}}, {});
   EXPECT_TRUE(made.turn_unverified(false));
@@ -141,7 +141,7 @@ TEST_F(PoseComposerTest, GivenCorrectionsThatPointHereAndThereThenNoPull) {
     const double offset_m = i % 2 == 0 ? 0.04 : 0.0;
     const double turn_rad = i % 2 == 0 ? 0.02 : -0.01;
     made.correct({.accepted = true, .map_T_base = {offset_m, 0.0, turn_rad}}, {kStart, {}});
-    ASSERT_FALSE(made.pulled());
+    ASSERT_FALSE(made.correction().pulled);
   }
 }
 

@@ -141,7 +141,7 @@ TEST_F(SupervisorTest, GivenRejectedMatchesInARowThenDegradedAndLost) {
 TEST_F(SupervisorTest, GivenAnAcceptedMatchBetweenThenTheRowBeginsAnew) {
   track();
   for (int i = 0; i < 20; ++i) {
-    supervisor.matched({.accepted = i % 2 == 0, .inlier_share = 1.0F});
+    supervisor.matched({.accepted = i % 2 == 0, .agreement = 1.0F, .inlier_share = 1.0F});
     tick();
     ASSERT_EQ(supervisor.state(), HealthState::tracking);
   }
@@ -149,7 +149,8 @@ TEST_F(SupervisorTest, GivenAnAcceptedMatchBetweenThenTheRowBeginsAnew) {
 
 TEST_F(SupervisorTest, GivenAnUnobservableDirectionThenDegradedUntilItIsSeen) {
   track();
-  supervisor.matched({.accepted = true, .direction_unobservable = true, .inlier_share = 1.0F});
+  supervisor.matched(
+      {.accepted = true, .direction_unobservable = true, .agreement = 1.0F, .inlier_share = 1.0F});
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::direction_unobservable);
   supervisor.matched(kGood);
@@ -159,10 +160,10 @@ TEST_F(SupervisorTest, GivenAnUnobservableDirectionThenDegradedUntilItIsSeen) {
 
 TEST_F(SupervisorTest, GivenJumpsBeyondChanceThenTheSensorsDisagreeUntilGoodMatchesReturn) {
   track();
-  supervisor.matched(kGood, true);
+  supervisor.matched(kGood, {.jumped = true});
   tick();
   EXPECT_EQ(supervisor.state(), HealthState::tracking) << "one jump is a correction";
-  supervisor.matched(kGood, true);
+  supervisor.matched(kGood, {.jumped = true});
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
   EXPECT_TRUE(supervisor.doubts_pose());
@@ -181,7 +182,7 @@ TEST_F(SupervisorTest, GivenJumpsBeyondChanceThenTheSensorsDisagreeUntilGoodMatc
 TEST_F(SupervisorTest, GivenJumpsWithLongPausesThenTheyAreForgiven) {
   track();
   for (int round = 0; round < 10; ++round) {
-    supervisor.matched(kGood, true);
+    supervisor.matched(kGood, {.jumped = true});
     supervisor.matched(kGood);
     supervisor.matched(kGood);
     tick();
@@ -191,14 +192,16 @@ TEST_F(SupervisorTest, GivenJumpsWithLongPausesThenTheyAreForgiven) {
 
 TEST_F(SupervisorTest, GivenAPoorMatchThatJumpsThenTheSensorsDisagreeAtOnce) {
   track();
-  supervisor.matched({.accepted = true, .inlier_share = 0.4F}, true);
+  supervisor.matched({.accepted = true, .agreement = 1.0F, .inlier_share = 0.4F}, {.jumped = true});
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
 }
 
 TEST_F(SupervisorTest, GivenPoorMatchesWithoutJumpsThenTrackingGoesOn) {
   track();
-  for (int i = 0; i < 20; ++i) { supervisor.matched({.accepted = true, .inlier_share = 0.4F}); }
+  for (int i = 0; i < 20; ++i) {
+    supervisor.matched({.accepted = true, .agreement = 1.0F, .inlier_share = 0.4F});
+  }
   tick();
   EXPECT_EQ(supervisor.state(), HealthState::tracking) << "new surroundings fit nothing yet";
 }
@@ -222,12 +225,12 @@ TEST_F(SupervisorTest, GivenALostPoseThenPoorMatchesDoNotBringItBack) {
 
 TEST_F(SupervisorTest, GivenAPullThenTheSensorsDisagreeAsLongAsItLasts) {
   track();
-  supervisor.matched(kGood, false, true);
+  supervisor.matched(kGood, {.pulled = true});
   tick();
   EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
-  for (int i = 0; i < 4; ++i) { supervisor.matched(kGood, false, false); }
+  for (int i = 0; i < 4; ++i) { supervisor.matched(kGood); }
   EXPECT_TRUE(supervisor.unproven()) << "the pose may have been drawn along";
-  supervisor.matched(kGood, false, false);
+  supervisor.matched(kGood);
   EXPECT_FALSE(supervisor.unproven());
   for (int i = 0; i < 44; ++i) { supervisor.matched(kGood); }
   for (int i = 0; i < 25; ++i) { tick(); }

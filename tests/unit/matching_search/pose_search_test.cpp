@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 #include "picolo/geometry/angle.hpp"
@@ -39,10 +40,12 @@ struct Ground {
 
 /// Every leaf of the window, scored by the very same function.
 std::int32_t brute_force(const Ground& ground, const PosePrior& prior, const SearchWindow& window,
-                         const PoseSearchConfig& config, std::size_t points) {
+                         const PoseSearchConfig& config, std::size_t points,
+                         const PoseSearchArea& area = {}, const PoseExclusion& excluded = {}) {
   PoseTree tree;
   tree.begin(ground.map->core().field(), ground.pyramid.view(), ground.scan.view(), points, window,
-             prior, config);
+             prior, config, area);
+  tree.exclude(excluded);
   std::int32_t best = 0;
   for (int a = -tree.half_angles(); a <= tree.half_angles(); ++a) {
     for (int y = -tree.half_cells(); y <= tree.half_cells(); ++y) {
@@ -89,6 +92,45 @@ RC_GTEST_PROP(PoseSearch, EqualsBruteForceInEveryWindow, ()) {
   RC_ASSERT(report.found == (expected > 0));
   RC_ASSERT(report.upper_bound == static_cast<float>(expected) * unit(points));
   if (report.found) { RC_ASSERT(report.best.score == static_cast<float>(expected) * unit(points)); }
+}
+
+RC_GTEST_PROP(PoseSearch, EqualsBruteForceInAnAreaAndElsewhere, ()) {
+  static const Ground ground;     // NOLINT: built once, never changed
+  constexpr int kAreaCells = 16;  // of 16 cells of the field, of which it has 256
+  std::array<std::int8_t, static_cast<std::size_t>(kAreaCells) * kAreaCells> area_cells{};
+  for (std::int8_t& cell : area_cells) {
+    cell = *rc::gen::element<std::int8_t>(-10, 0, 0, 0, 0, 0, 0, 40);
+  }
+  const PoseSearchArea area{.log_odds = area_cells.data(),
+                            .width = kAreaCells,
+                            .height = kAreaCells,
+                            .shift = 4,
+                            .offset_x = *rc::gen::inRange(-20, 20),
+                            .offset_y = *rc::gen::inRange(-20, 20)};
+  const auto within = [](float half) {
+    return static_cast<float>(*rc::gen::inRange(-1000, 1001)) * 0.001F * half;
+  };
+  const SearchWindow window{
+      .centre = {6.4F + within(4.0F), 6.4F + within(4.0F), ground.true_pose.theta_rad},
+      .half_translation_m = 0.8F,
+      .half_rotation_rad = 2.0F * kDegree};
+  constexpr std::size_t kPoints = 20;
+  const PoseSearchConfig config{.max_points = static_cast<int>(kPoints)};
+  PoseSearch search{config};
+  RC_ASSERT(search.begin(ground.map->core().field(), ground.pyramid.view(), ground.scan.view(),
+                         window, {}, area) == Status::ok);
+  while (!search.step(1000)) {}
+  const std::int32_t best = brute_force(ground, {}, window, config, kPoints, area);
+  RC_ASSERT(search.report().exact);
+  RC_ASSERT(search.report().upper_bound == static_cast<float>(best) * unit(kPoints));
+  if (!search.report().found) { return; }
+  const PoseExclusion excluded{search.report().best.pose, 0.4F, 1.5F * kDegree};
+  search.begin_elsewhere(excluded, 0.0F);
+  while (!search.step(1000)) {}
+  const std::int32_t rival = brute_force(ground, {}, window, config, kPoints, area, excluded);
+  RC_ASSERT(search.report().exact);
+  RC_ASSERT(search.report().found == (rival > 0));
+  RC_ASSERT(search.report().upper_bound == static_cast<float>(rival) * unit(kPoints));
 }
 
 TEST(PoseSearch, GivenAKidnappedVehicleThenTheWholeMapAndCircleAreSearchedExactly) {

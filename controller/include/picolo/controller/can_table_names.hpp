@@ -92,9 +92,9 @@ inline constexpr std::size_t kCounterCount = 27;
 
 namespace can_table {
 
-inline constexpr std::array kHealthStateNames{CanName{0, "initialising"}, CanName{1, "tracking"},
-                                              CanName{2, "degraded"}, CanName{3, "lost"},
-                                              CanName{4, "fault"}};
+inline constexpr std::array kHealthStateNames{
+    CanName{0, "initialising"}, CanName{1, "tracking"}, CanName{2, "degraded"},
+    CanName{3, "lost"},         CanName{4, "fault"},    CanName{5, "relocalising"}};
 inline constexpr std::array kHealthReasonNames{CanName{0, "none"},
                                                CanName{1, "starting"},
                                                CanName{2, "lidar_silent"},
@@ -109,15 +109,16 @@ inline constexpr std::array kHealthReasonNames{CanName{0, "none"},
                                                CanName{11, "overrun"},
                                                CanName{12, "sensors_disagree"},
                                                CanName{13, "tilted"},
-                                               CanName{14, "turn_unverified"}};
+                                               CanName{14, "turn_unverified"},
+                                               CanName{15, "ambiguous"},
+                                               CanName{16, "unproven"}};
 inline constexpr std::array kOperatingModeNames{CanName{0, "mapping"}, CanName{1, "localising"}};
 inline constexpr std::array kEventCodeNames{
     CanName{0, "started"},          CanName{1, "state_changed"},  CanName{2, "reason_changed"},
     CanName{3, "overrun"},          CanName{4, "frames_slipped"}, CanName{5, "sweep_replaced"},
     CanName{6, "sweep_dropped"},    CanName{7, "pose_jump"},      CanName{8, "device_lost"},
     CanName{9, "device_back"},      CanName{10, "pose_set"},      CanName{11, "mode_set"},
-    CanName{12, "command_refused"}, CanName{13, "impersonated"},
-    CanName{14, "sensor_doubted"}};
+    CanName{12, "command_refused"}, CanName{13, "impersonated"},  CanName{14, "sensor_doubted"}};
 inline constexpr std::array kCalibrationPhaseNames{
     CanName{0, "idle"},     CanName{1, "collecting"}, CanName{2, "solving"},
     CanName{3, "done"},     CanName{4, "refused"},    CanName{5, "aborted"},

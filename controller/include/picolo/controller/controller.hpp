@@ -76,6 +76,7 @@ class Controller {
   Status start() {
     const Timestamp now = board_.clock.now();
     supervisor_.start(now, events_.attach());
+    if (localiser_.core().localises_only()) { supervisor_.distrust(); }
     composer_.start(now);
     const Status status = configuration_valid_ ? executive_.start() : Status::invalid_argument;
     if (status != Status::ok) { supervisor_.refuse_configuration(); }
@@ -204,11 +205,13 @@ class Controller {
   void integrate() {
     for (const WheelTicks& ticks : ticks_) { pipeline_.add(ticks); }
     ticks_.clear();
+    pipeline_.coast(frame_.start);
     supervisor_.heard(DeviceIndex::lidar, pipeline_.last_sweep_end());
     supervisor_.turns(pipeline_.turns_disagree());
     supervisor_.doubted(frame_.start, pipeline_.doubts());
     supervisor_.tilted(pipeline_.tilted());
-    supervisor_.searching(pipeline_.searching());
+    const LocaliserCore& localiser = localiser_.core();
+    supervisor_.searching(pipeline_.searching(), localiser.unverified(), localiser.ambiguous());
     pipeline_.doubt(supervisor_.unproven());
     pipeline_.hold_map(supervisor_.doubts_pose() || desk_.mode() == OperatingMode::localising);
     publish(frame_.start);
@@ -234,9 +237,12 @@ class Controller {
     if (!match_ended) { return; }
     const MatchVerdict& verdict = pipeline_.verdict();
     if (verdict.accepted) { composer_.correct(verdict, pipeline_.newest_pose(frame_.start)); }
-    const bool jumped = verdict.accepted && composer_.jumped();
-    supervisor_.matched(verdict, jumped, composer_.pulled());
-    if (jumped) { supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm()); }
+    const PoseCorrection correction = verdict.accepted ? composer_.correction() : PoseCorrection{};
+    const bool leapt = supervisor_.matched(verdict, correction);
+    if (leapt && !localiser_.core().unverified()) { pipeline_.verify(); }
+    if (correction.jumped) {
+      supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm());
+    }
   }
 
   void report() {

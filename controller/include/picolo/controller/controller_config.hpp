@@ -13,6 +13,7 @@
 #include "picolo/geometry/pose2.hpp"
 #include "picolo/localisation/health.hpp"
 #include "picolo/localisation/localiser.hpp"
+#include "picolo/localisation/pose_trust.hpp"
 #include "picolo/odometry/dead_reckoning.hpp"
 #include "picolo/odometry/differential_drive.hpp"
 #include "picolo/sensing/sweep.hpp"
@@ -60,51 +61,25 @@ struct SetPoseSigma {
   }
 };
 
-/// When accepted matches are to be doubted. Poor ones and jumps do not help a pose to be trusted
-/// again. A jump raises the doubt by two, one that fits poorly by four; a good match without jump
-/// lowers it by one.
-struct MatchTrust {
-  float good_inlier_share = 0.5F;  ///< a match with fewer points near obstacles is poor
-  /// After the pose was lost a match with fewer is poor: a place that looks like another one
-  /// differs from it somewhere.
-  float found_again_agreement = 0.85F;
-  int found_again_matches = 5;  ///< good ones in a row, before the pose is believed again
-  /// A correction that moves the pose further is a jump, told as an event, ...
-  float max_correction_m = 0.05F;
-  float max_correction_rad = 0.035F;  ///< ... or turns it further
-  int max_doubt = 3;                  ///< beyond it the sensors disagree
-  /// Once sensors have contradicted each other or themselves, so many good matches in a row without
-  /// a jump have to prove the pose.
-  int proof_matches = 10;
-  int pull_proof_matches = 50;  ///< the same after a pull, which nothing has explained
-  /// Corrections that keep pointing the same way add up to a pull; chance ones cancel. Beyond these
-  /// the sensors disagree.
-  float max_pull_m = 0.07F;
-  float max_pull_rad = 0.02F;
-  float pull_kept = 0.97F;  ///< share that remains from one match to the next
-  /// Factor on the two limits of turns above while the wheels tell the turn alone: they slip.
-  float without_gyro = 2.5F;
-  /// ... and no turn further than this is believed before a match confirms it: a wheel that counts
-  /// wrongly makes a turn of a straight way.
-  float max_wheel_turn_rad = 0.04F;
-  /// Without a match for longer, what is seen afterwards has to prove the pose as after a loss.
-  Duration max_unmatched = 1s;
-  [[nodiscard]] constexpr bool valid() const {
-    return good_inlier_share >= 0.0F && good_inlier_share <= 1.0F && max_correction_m >= 0.0F &&
-           max_correction_rad >= 0.0F && found_again_agreement >= 0.0F &&
-           found_again_agreement <= 1.0F && found_again_matches > 0 && max_doubt >= 0 &&
-           proof_matches >= 0 && pull_proof_matches >= proof_matches && without_gyro >= 1.0F &&
-           max_wheel_turn_rad > 0.0F && max_unmatched > Duration{0} && max_pull_m > 0.0F &&
-           max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
-  }
-};
-
 /// Identifiers of the controller's own frames (16 from the base on) and of the commands to it (the
 /// next 16); 0x101 to 0x17F are free in every CANopen network.
 struct FramesOutConfig {
   bool enabled = true;  ///< false: neither frames nor commands
   std::uint16_t base_id = 0x110;
   [[nodiscard]] constexpr bool valid() const { return base_id % 16 == 0 && base_id <= 0x7E0; }
+};
+
+/// Without wheels, but with a lidar, the odometry goes on with the velocity that the last matches
+/// showed, and with the gyro's turn.
+struct CoastConfig {
+  bool enabled = true;
+  Duration after = 100ms;  ///< without a sample of the wheels
+  Duration behind = 10ms;  ///< the present: what the gyro measured has arrived by then
+  Duration max_age =
+      500ms;  ///< of the last accepted match; after that the vehicle is held to stand
+  [[nodiscard]] constexpr bool valid() const {
+    return after > Duration{0} && behind >= Duration{0} && max_age > Duration{0};
+  }
 };
 
 struct ControllerConfig {
@@ -126,6 +101,7 @@ struct ControllerConfig {
   Duration max_prediction = 25ms;
   /// A gap of the wheels up to this long is bridged with their last velocity and the gyro's turn.
   Duration max_bridge = 200ms;
+  CoastConfig coast{};
   /// The lidar measured so long before its stamps say, on the wheels' clock; see calibration.
   Duration lidar_age{0};
   [[nodiscard]] constexpr bool valid() const;
@@ -166,7 +142,7 @@ constexpr bool ControllerConfig::valid() const {
          undistort.valid() && undistort.frame == SweepFrame::base &&
          undistort.reference != SweepReference::stamp && localiser.valid() && set_pose.valid() &&
          plausibility.valid() && trust.valid() && health.valid() && frames_out.valid() &&
-         max_prediction >= Duration{0} && max_bridge >= Duration{0};
+         max_prediction >= Duration{0} && max_bridge >= Duration{0} && coast.valid();
 }
 static_assert(ControllerConfig{}.valid());
 

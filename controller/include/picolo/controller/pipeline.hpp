@@ -40,6 +40,7 @@ struct PipelineCounters {
   std::uint32_t bridged = 0;         ///< gaps of the wheels after which their counters started anew
   std::uint32_t ticks_refused = 0;   ///< not newer than their predecessor
   std::uint32_t ticks_left_out = 0;  ///< faster than the vehicle can be
+  std::uint32_t coasted = 0;         ///< poses without wheels, see CoastConfig
 };
 
 /// The end of a match.
@@ -47,6 +48,8 @@ struct MatchVerdict {
   bool accepted = false;
   bool direction_unobservable = false;
   bool turned_by_gyro = true;  ///< odometry's turn is the gyro's; otherwise the wheels' alone
+  bool guessed = false;        ///< the odometry of the sweep was carried on without wheels
+  bool relocalised = false;    ///< found by a search of the whole map
   HealthReason rejection = HealthReason::none;
   Timestamp reference{};
   Pose2d odom_T_base{};         ///< odometry at `reference`
@@ -77,6 +80,9 @@ class Pipeline {
   /// Advances odometry and remembers its pose. Damaged counts are left out.
   void add(WheelTicks ticks);
 
+  /// To be called after the samples of a frame: goes on without the wheels where there are none.
+  void coast(Timestamp now);
+
   /// Handles at most `max_returns` returns of the sweep, once the poses cover it. A sweep that
   /// cannot be undistorted is dropped and counted.
   /// True when a sweep became ready in this call: see `sweep`.
@@ -88,6 +94,8 @@ class Pipeline {
   /// `match`.
   bool search(std::size_t max_slices);
   [[nodiscard]] bool searching() const { return localiser_.searching(); }
+  /// The pose may be anywhere, see LocaliserCore.
+  void verify() { localiser_.verify(false); }
   /// See LocaliserCore.
   void doubt(bool doubted) { localiser_.doubt(doubted); }
   void hold_map(bool held) { localiser_.hold_map(held); }
@@ -133,11 +141,14 @@ class Pipeline {
   void doubt(SensorIndex sensor, Timestamp stamp);
   void doubt_wheels(SensorDoubts wheels, Timestamp stamp);
   void take_sweep();
+  void learn_twist();
   /// True when the end of the match is to be told.
   [[nodiscard]] bool conclude();
 
   UndistortConfig undistort_;
   Duration max_bridge_;
+  CoastConfig coast_;
+  Duration max_lidar_age_;
   Duration lidar_age_;
   LocaliserCore& localiser_;
   float gyro_gain_;
@@ -160,11 +171,15 @@ class Pipeline {
   Timestamp newest_sample_{};                 // of wheels and IMU
   std::array<Timestamp, 4> doubted_until_{};  // wheels, lidar, gyro
   bool moving_ = false;                       // the wheels
+  Timestamp last_ticks_{};
+  Twist2 coast_twist_{};
   PipelineStage stage_ = PipelineStage::waiting;
   Pose2d set_map_T_odom_{};
   Matrix3f set_covariance_{};
   bool pose_was_set_ = false;
   bool paused_ = false;
+  bool coasting_ = false;
+  bool guessed_ = false;  // odometry since the last sweep that was begun
   PipelineCounters counters_{};
 };
 

@@ -13,6 +13,13 @@
 
 namespace picolo::inline v0 {
 
+/// What an accepted match did to the published pose, by MatchTrust's limits.
+struct PoseCorrection {
+  bool jumped = false;  ///< it moved or turned by more than configured
+  bool pulled = false;  ///< the last ones went the same way for so long that the sensors disagree
+  bool leapt = false;   ///< it moved or turned further than an error of the odometry explains
+};
+
 /// A finished match for an instant in the past corrects map_T_odom only; odometry since then is
 /// kept. Context: cycle only.
 class PoseComposer {
@@ -37,10 +44,8 @@ class PoseComposer {
   /// Of a pose that a command sets, map axes.
   [[nodiscard]] Matrix3f set_pose_covariance() const;
   [[nodiscard]] const Pose2d& map_T_odom() const { return map_T_odom_; }
-  /// The last correction moved or turned the published pose by more than configured.
-  [[nodiscard]] bool jumped() const { return jumped_; }
-  /// The last corrections went the same way for so long that odometry and lidar must disagree.
-  [[nodiscard]] bool pulled() const;
+  /// What the last match did.
+  [[nodiscard]] PoseCorrection correction() const;
   /// The wheels alone have turned the vehicle further since the last match than they are trusted.
   [[nodiscard]] bool turn_unverified(bool turned_by_gyro) const {
     return !turned_by_gyro && turned_since_match_rad_ > trust_.max_wheel_turn_rad;
@@ -68,7 +73,6 @@ class PoseComposer {
   Pose2f last_jump_{};
   Pose2f pull_{};  // sum of jumps, fading; theta is a sum, not wrapped
   std::uint32_t matches_ = 0;
-  bool jumped_ = false;
   bool turned_by_gyro_ = true;
 };
 

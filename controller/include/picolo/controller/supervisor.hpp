@@ -10,9 +10,11 @@
 #include "picolo/controller/controller_config.hpp"
 #include "picolo/controller/devices.hpp"
 #include "picolo/controller/pipeline.hpp"
+#include "picolo/controller/pose_composer.hpp"
 #include "picolo/executive/schedule.hpp"
 #include "picolo/localisation/event_ring.hpp"
 #include "picolo/localisation/health.hpp"
+#include "picolo/localisation/pose_trust.hpp"
 
 namespace picolo::inline v0 {
 
@@ -31,9 +33,9 @@ class Supervisor {
   void heard(DeviceIndex device, Timestamp stamp);
   /// What a device's line answered last; changes to and from `disconnected` become events.
   void line(DeviceIndex device, Status status, Timestamp now);
-  /// `jumped`: it is accepted and moved the pose beyond the limits. `pulled`: so did the last ones
-  /// together.
-  void matched(const MatchVerdict& verdict, bool jumped = false, bool pulled = false);
+  /// `correction`: what it did to the published pose; nothing when it is not accepted.
+  /// True when it leapt: the pose may be anywhere from now on.
+  bool matched(const MatchVerdict& verdict, const PoseCorrection& correction = {});
   /// Wheels and gyro turn differently, or no longer.
   void turns(bool disagree) { turns_disagree_ = disagree; }
   /// Sensors whose own streams cannot be true; what is new becomes an event.
@@ -42,15 +44,23 @@ class Supervisor {
   void tilted(bool tilted) { tilted_ = tilted; }
   /// The wheels alone tell a turn that no match has confirmed.
   void turn_unverified(bool unverified) { turn_unverified_ = unverified; }
-  /// The localiser is searching.
-  void searching(bool searching) { searching_ = searching; }
+  /// The localiser is searching; it cannot tell where the pose is (see LocaliserCore::verify), or
+  /// not which of several places.
+  void searching(bool searching, bool unverified = false, bool ambiguous = false) {
+    searching_ = searching;
+    unverified_ = unverified;
+    ambiguous_ = ambiguous;
+  }
+  /// The pose that the controller starts with is to be proven first.
+  void distrust() { trust_.distrust(); }
   /// The pose was lost, or the sensors have just contradicted each other, and what is seen from it
   /// has not been seen to fit since: nothing of it should be remembered.
   [[nodiscard]] bool doubts_pose() const {
-    return unproven_ || hold_left_ > 0 || state() == HealthState::lost;
+    return unproven() || trust_.holds_map() || state() == HealthState::lost ||
+           state() == HealthState::relocalising;
   }
-  /// The pose was lost or drawn along, and what is seen from it does not yet fit well.
-  [[nodiscard]] bool unproven() const { return unproven_; }
+  /// The pose was lost, set or drawn along, and what is seen from it does not yet fit well.
+  [[nodiscard]] bool unproven() const { return trust_.unproven(); }
   void event(Timestamp now, EventCode code, std::int32_t argument);
   /// Counts of the pipeline; what is new becomes an event, at most one of a kind a second.
   void sweeps(Timestamp now, std::uint32_t replaced, std::uint32_t dropped);
@@ -88,7 +98,7 @@ class Supervisor {
   void report_cycle(Timestamp now, const Schedule& schedule);
 
   HealthMonitor monitor_;
-  MatchTrust trust_;
+  PoseTrust trust_;
   EventRing& events_;
   std::array<Watch, kDeviceCount> watches_{};
   std::array<std::uint32_t, kControllerTasks> overruns_{};
@@ -105,21 +115,14 @@ class Supervisor {
   Trouble impersonated_{};
   std::uint32_t slipped_ = 0;
   std::uint32_t cycle_troubles_ = 0;  // overruns and slipped frames
-  int accepted_streak_ = 0;
-  int rejected_streak_ = 0;
-  int doubt_ = 0;
-  int proof_left_ = 0;  // matches until a contradiction is forgiven
-  int hold_left_ = 0;   // matches until the map may change again
-  bool was_contradicted_ = false;
-  bool pulled_ = false;
-  bool unproven_ = false;  // lost since, and not yet seen to fit
-  HealthReason rejection_ = HealthReason::match_rejected;
   bool direction_unobservable_ = false;
   bool turns_disagree_ = false;
   bool tilted_ = false;
   bool turn_unverified_ = false;
   SensorDoubts doubts_ = 0;
   bool searching_ = false;
+  bool unverified_ = false;
+  bool ambiguous_ = false;
   bool configuration_refused_ = false;
 };
 

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// @file
 /// How far the pose may be trusted, decided in one place: initialising, tracking, degraded, lost,
-/// fault.
+/// relocalising, fault.
 #pragma once
 
 #include <cstdint>
@@ -21,7 +21,8 @@ struct HealthConfig {
   bool expects_gyro = true;         ///< false: its absence is no loss
   int initial_matches = 3;      ///< accepted in a row before the pose is trusted for the first time
   int degraded_rejections = 2;  ///< matches rejected in a row: degraded
-  int lost_rejections = 15;     ///< ... and lost
+  /// ... and lost, unless there are too few points to tell: that is no lidar, not a contradiction.
+  int lost_rejections = 15;
   float max_position_variance_m2 = 0.25F;  ///< of the pose in the map; beyond it, lost
   int recover_matches = 3;                 ///< accepted in a row, and
   /// This long without any cause, before degraded becomes tracking.
@@ -56,6 +57,9 @@ struct HealthInputs {
   bool tilted = false;                  ///< the vehicle leans; sweeps show the floor
   bool turn_unverified = false;         ///< the wheels alone turned too far since the last match
   bool relocalising = false;            ///< a wide search is running
+  bool unproven = false;    ///< the pose was doubted, and has not yet been seen to fit again
+  bool unverified = false;  ///< the pose may be anywhere: only a search of the whole map can tell
+  bool ambiguous = false;   ///< ... which has found several places
   /// Larger eigenvalue or trace of the position part; a NaN counts as too large.
   float position_variance_m2 = 0.0F;
   std::uint32_t overruns = 0;  ///< of the cycle since start, modulo 2^32
@@ -95,13 +99,14 @@ class HealthMonitor {
   [[nodiscard]] Finding assess(const HealthInputs& inputs);
   void advance(const HealthInputs& inputs, const Finding& finding);
   void enter(HealthState state, HealthReason reason);
+  void lose(const HealthInputs& inputs, const Finding& finding);
 
   HealthConfig config_;
   HealthState state_ = HealthState::initialising;
   HealthReason reason_ = HealthReason::starting;
-  Timestamp clear_since_{};   // valid while was_clear_
-  Timestamp last_overrun_{};  // valid while overrun_seen_
-  Timestamp overruns_since_{};  // a window as long as overrun_hold, and ...
+  Timestamp clear_since_{};            // valid while was_clear_
+  Timestamp last_overrun_{};           // valid while overrun_seen_
+  Timestamp overruns_since_{};         // a window as long as overrun_hold, and ...
   std::uint32_t recent_overruns_ = 0;  // ... how many came in it
   std::uint32_t overruns_ = 0;
   bool was_clear_ = false;

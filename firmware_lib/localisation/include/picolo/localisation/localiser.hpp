@@ -12,8 +12,9 @@
 #include "picolo/core/status.hpp"
 #include "picolo/geometry/pose2.hpp"
 #include "picolo/localisation/profile.hpp"
+#include "picolo/localisation/relocaliser.hpp"
+#include "picolo/localisation/search_memory.hpp"
 #include "picolo/map/rolling_map.hpp"
-#include "picolo/matching/correlative.hpp"
 #include "picolo/matching/gauss_newton.hpp"
 #include "picolo/matching/surface.hpp"
 #include "picolo/odometry/heading_correction.hpp"
@@ -35,6 +36,8 @@ struct PredictionNoise {
   float rotation_per_rad = 0.15F;
   float blind_translation_m = 0.3F;  ///< tight ones hold a vehicle back that moves on steadily
   float blind_rotation_rad = 0.12F;
+  float guessed_translation_m = 0.1F;  ///< added where the odometry is a guess of steady motion
+  float guessed_rotation_rad = 0.05F;
   /// Of the odometry term against the scan. Directions that the scan leaves open are the odometry's
   /// whatever the weight.
   float weight = 0.2F;
@@ -97,6 +100,7 @@ struct LocaliserConfig {
   bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
   PredictionNoise noise{};
   SearchConfig search{};
+  RelocaliseConfig relocalise{};
   SurfaceConfig surface{};
   HeadingCorrectionConfig heading{};
   UncertaintyConfig uncertainty{};
@@ -114,8 +118,8 @@ struct LocaliserConfig {
     return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
            min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
            ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && search.valid() &&
-           surface.valid() && uncertainty.valid() && max_insert_range_m > 0.0F &&
-           max_repair_tiles > 0;
+           relocalise.valid() && surface.valid() && uncertainty.valid() &&
+           max_insert_range_m > 0.0F && max_repair_tiles > 0;
   }
 };
 
@@ -127,6 +131,8 @@ struct LocaliserCounters {
   std::uint32_t rejected = 0;
   std::uint32_t searched = 0;                   ///< sweeps with a correlative search
   std::uint32_t searched_wide = 0;              ///< of these, with a wide one
+  std::uint32_t searched_anywhere = 0;          ///< ... or with one of the whole map, ...
+  std::uint32_t found_anywhere = 0;             ///< ... which found the one place that it fits
   std::uint32_t inserted = 0;                   ///< sweeps that entered the map
   std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
 };
@@ -157,6 +163,9 @@ class LocaliserCore {
   /// `odometry_valid`: sweep.odom_T_base is real; otherwise the pose is predicted to stand still.
   /// `invalid_argument`: configuration, or a sweep is still being worked on.
   Status begin(const UndistortedSweep& sweep, bool odometry_valid);
+  /// The odometry of the sweeps to come is a guess of steady motion, not a measurement.
+  void predict_loosely(bool guessed) { guessed_ = guessed; }
+  [[nodiscard]] bool predicts_loosely() const { return guessed_; }
   /// One slice: a Gauss-Newton iteration, or `search.lookups_per_step` lookups of a search. True
   /// when the match is over.
   bool match_step();
@@ -168,8 +177,15 @@ class LocaliserCore {
   [[nodiscard]] LocaliserPhase phase() const { return phase_; }
   /// The next `match_step` is a slice of a search; callers may want to run that as background work.
   [[nodiscard]] bool searching() const {
-    return phase_ == LocaliserPhase::matching && stage_ == Stage::search;
+    return phase_ == LocaliserPhase::matching &&
+           (stage_ == Stage::search || stage_ == Stage::relocalise);
   }
+  /// The whole map is being searched for the sweep at hand.
+  [[nodiscard]] bool relocalising() const { return relocalisation_ == Relocalisation::searching; }
+  /// The last sweep whose match is over was found by that.
+  [[nodiscard]] bool relocalised() const { return settled_; }
+  /// The last search of the whole map found two places that the sweep fits alike.
+  [[nodiscard]] bool ambiguous() const { return ambiguous_; }
   /// While held, accepted matches correct the pose but no sweep enters the map: what is seen from a
   /// pose that is in doubt would be believed for ever. The first sweep founds the map all the same.
   void hold_map(bool held) { map_held_ = held; }
@@ -184,10 +200,20 @@ class LocaliserCore {
   Status localise_in_restored_map();
   [[nodiscard]] RollingMapCore& restorable_map() { return fine_; }
   [[nodiscard]] bool localises_only() const { return localises_only_; }
-  /// While doubted, the pose may be far from the truth: what fits badly is searched for widely.
+  /// While doubted, the pose may be far from the truth: what fits badly near it is searched for in
+  /// the whole map (see RelocaliseConfig), or widely where that is switched off.
   void doubt(bool doubted) { doubted_ = doubted; }
-  /// Of the points that the map has an opinion on, the share that is near an obstacle. Looked up
-  /// for accepted matches while doubted; the inlier share otherwise.
+  /// The pose may be anywhere, or nowhere near: while doubted, the next sweeps are searched for in
+  /// the whole map even where they fit, until one fits at one place only. `given`: somebody who
+  /// knows has set the pose; where it fits as well as any other, it is that.
+  void verify(bool given) {
+    unverified_ = config_.relocalise.enabled;
+    given_ = given;
+  }
+  [[nodiscard]] bool unverified() const { return unverified_; }
+  /// Of the points that the map has an opinion on, the share that is near an obstacle; 0 as long as
+  /// it is to be verified. Looked up for accepted matches while doubted; the inlier share
+  /// otherwise.
   [[nodiscard]] float agreement() const { return agreement_; }
   /// Of the last sweep whose match is over.
   [[nodiscard]] const MatchReport& report() const { return report_; }
@@ -214,16 +240,26 @@ class LocaliserCore {
 
  private:
   /// What one slice of the match does.
-  enum class Stage : std::uint8_t { coarse, refine, search };
+  enum class Stage : std::uint8_t { coarse, refine, search, relocalise };
+  /// Of the sweep at hand, in the whole map.
+  enum class Relocalisation : std::uint8_t { none, searching, refining, settling, over };
 
+  [[nodiscard]] static bool usable(MatchOutcome outcome);
   void start_match();
   void refine(const Pose2f& start);
   void consider(const MatchReport& report);
   [[nodiscard]] float agreement_of(const MatchReport& report) const;
   [[nodiscard]] bool fits() const;
+  [[nodiscard]] bool worth_a_search() const;
   [[nodiscard]] bool begin_search();
   [[nodiscard]] bool begin_wide_search();
   [[nodiscard]] bool next_candidate();
+  [[nodiscard]] bool begin_relocalisation();
+  void judge_place(const MatchReport& report);
+  [[nodiscard]] bool next_place();
+  [[nodiscard]] bool choose_place();
+  [[nodiscard]] bool stays() const;
+  void note_fit();
   [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
@@ -244,13 +280,16 @@ class LocaliserCore {
   GaussNewtonMatcher<DistanceFieldView> coarse_matcher_;
   GaussNewtonMatcher<DistanceFieldView> fine_matcher_;
   UndistortedSweep sweep_{};
-  CorrelativeSearch search_;
+  SearchMemory searches_;
+  Relocaliser relocaliser_;
   MatchRequest request_{};
   MatchReport report_{};
   Matrix3f prediction_information_{};  // base axes, without its weight
   float translation_sigma_m_ = 0.0F;
   float rotation_sigma_rad_ = 0.0F;
   std::size_t candidate_ = 0;
+  std::size_t place_ = 0;  // of the relocaliser, that is refined
+  Relocalisation relocalisation_ = Relocalisation::none;
   Stage stage_ = Stage::refine;
   bool searched_ = false;
   bool searched_wide_ = false;
@@ -275,6 +314,12 @@ class LocaliserCore {
   bool adding_hits_ = false;
   bool map_held_ = false;
   bool doubted_ = false;
+  bool ambiguous_ = false;
+  bool settled_ = false;
+  bool guessed_ = false;
+  bool unverified_ = false;
+  bool given_ = false;
+  int unfit_in_a_row_ = 0;  // doubted sweeps
   float agreement_ = 0.0F;
   bool localises_only_ = false;
   int adopted_rows_ = -1;  // of the coarse map; -1: no map is being adopted

@@ -4,6 +4,7 @@
 /// What the controller publishes.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 #include "picolo/core/time.hpp"
@@ -12,7 +13,16 @@
 namespace picolo::inline v0 {
 
 /// How far the pose may be trusted; docs/architecture.md, "Health".
-enum class HealthState : std::uint8_t { initialising, tracking, degraded, lost, fault };
+/// The number goes over the wire: append only.
+enum class HealthState : std::uint8_t {
+  initialising,
+  tracking,
+  degraded,  ///< a sensor, a direction or a proof is missing: odometry carries on
+  lost,      ///< the pose is not known, and there is nothing to search with
+  fault,
+  relocalising,  ///< the pose is not known, and is being searched for
+};
+inline constexpr std::size_t kHealthStates = 6;
 
 /// Why the health state is what it is. The number goes over the wire: append only.
 enum class HealthReason : std::uint8_t {
@@ -26,12 +36,14 @@ enum class HealthReason : std::uint8_t {
   too_few_points = 7,
   out_of_map = 8,
   relocalising = 9,
-  configuration = 10,     ///< a part refuses its configuration
-  overrun = 11,           ///< the cycle missed its deadlines
+  configuration = 10,  ///< a part refuses its configuration
+  overrun = 11,        ///< the cycle missed its deadlines
   /// Wheels, gyro and lidar tell different motions, or one of them what cannot be.
   sensors_disagree = 12,
   turn_unverified = 14,  ///< without a gyro: a turn since the last match that nothing confirms
-  tilted = 13,  ///< the vehicle leans: the lidar does not see the plane of the map
+  tilted = 13,           ///< the vehicle leans: the lidar does not see the plane of the map
+  ambiguous = 15,        ///< the sweep fits at several places of the map
+  unproven = 16,         ///< the pose was doubted, and what is seen from it must first fit again
 };
 
 [[nodiscard]] const char* to_string(HealthState state);

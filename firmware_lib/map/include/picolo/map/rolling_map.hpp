@@ -93,6 +93,10 @@ class RollingMapCore {
   void restore(int column, int row, std::span<const std::int8_t> log_odds);
   void mark_all_stale();
 
+  /// Memory that only the scans entering the map need, an eighth of a byte a cell: to be used
+  /// until the next `begin_scan`. Cost: O(cells / 32) at that call.
+  [[nodiscard]] std::span<std::uint8_t> lend_scan_memory();
+
   [[nodiscard]] const GridWindow& window() const { return window_; }
   [[nodiscard]] const MapConfig& config() const { return config_; }
   [[nodiscard]] DistanceFieldView field() const;
@@ -122,7 +126,7 @@ class RollingMapCore {
   float field_reach_m_ = 0.0F;
   float cells_per_m_ = 0.0F;
   std::array<std::uint8_t, kMaxFieldRadius * kMaxFieldRadius + 1>
-      byte_of_square_{};   // squared cells -> field byte
+      byte_of_square_{};       // squared cells -> field byte
   int first_changed_row_ = 0;  // of the current scan: what begin_scan has to forget
   int last_changed_row_ = -1;
   int stale_count_ = 0;

@@ -47,16 +47,22 @@ class BranchAndBound {
     pruned_ = 0;
   }
 
-  /// Adds siblings (roots); reorders the span. False when the stack is full: nothing was added.
+  /// Adds siblings (roots). False when the stack is full: nothing was added.
   /// Cost: O(siblings^2) at worst.
-  [[nodiscard]] bool push(std::span<Node> siblings) {
+  [[nodiscard]] bool push(std::span<const Node> siblings) {
     if (siblings.size() > Capacity - size_) { return false; }
-    if (order_ == ChildOrder::best_first) { sort_by_bound(siblings); }
-    for (std::size_t i = siblings.size(); i > 0; --i) {  // the first lies on top
-      stack_[size_] = siblings[i - 1];
-      ++size_;
-    }
+    std::copy(siblings.begin(), siblings.end(), room().begin());
+    push_written(siblings.size());
     return true;
+  }
+  /// Where siblings may be written for `push_written`: saves a second array of them.
+  [[nodiscard]] std::span<Node> room() { return std::span{stack_}.subspan(size_); }
+  /// As `push`, for the first `count` nodes of `room`. Precondition: count <= room().size().
+  void push_written(std::size_t count) {
+    const std::span<Node> siblings = room().first(count);
+    if (order_ == ChildOrder::best_first) { sort_by_bound(siblings); }
+    std::reverse(siblings.begin(), siblings.end());  // the first lies on top
+    size_ += count;
   }
 
   /// Takes one node: prunes it when not above the best leaf so far, keeps it when it is a leaf,

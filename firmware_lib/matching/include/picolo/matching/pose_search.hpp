@@ -21,7 +21,25 @@
 
 namespace picolo::inline v0 {
 
-inline constexpr std::size_t kMaxSearchAngles = 721;  ///< the full circle at half a degree
+inline constexpr std::size_t kMaxSearchAngles = 361;  ///< the full circle at one degree
+
+/// Where the base may stand: within about a cell of a free one of a coarser grid. No cells:
+/// anywhere in the window.
+struct PoseSearchArea {
+  const std::int8_t* log_odds = nullptr;  ///< row-major; below 0: free
+  int width = 0;
+  int height = 0;
+  int shift = 0;     ///< a cell has 2^shift cells of the field along each side
+  int offset_x = 0;  ///< corner of the field's window in the grid, in cells of the field
+  int offset_y = 0;
+};
+
+/// Poses that do not count: within both limits of the pose. within_m = 0: none.
+struct PoseExclusion {
+  Pose2f pose{};  ///< window_T_base
+  float within_m = 0.0F;
+  float within_rad = 0.0F;
+};
 
 struct PoseSearchConfig {
   float rotation_step_rad = 0.017453293F;  ///< 1 deg: a cell of 8 cm at 4.6 m
@@ -65,7 +83,9 @@ class PoseTree {
 
   void begin(const DistanceFieldView& field, const MaxPyramidView& pyramid,
              const PointsView& points, std::size_t point_count, const SearchWindow& window,
-             const PosePrior& prior, const PoseSearchConfig& config);
+             const PosePrior& prior, const PoseSearchConfig& config,
+             const PoseSearchArea& area = {});
+  void exclude(const PoseExclusion& excluded) { excluded_ = excluded; }
 
   [[nodiscard]] bool is_leaf(const Node& node) const { return node.level < 0; }
   std::size_t expand(const Node& node, std::span<Node> children);
@@ -76,8 +96,14 @@ class PoseTree {
   [[nodiscard]] int half_cells() const { return half_cells_; }
   [[nodiscard]] int half_angles() const { return half_angles_; }
   [[nodiscard]] std::uint32_t nodes() const { return nodes_; }
+  /// Squares that were ruled out without a look at the points, as work: a few to a node.
+  [[nodiscard]] std::uint32_t skipped() const { return skipped_ / kSkipsPerNode; }
 
  private:
+  static constexpr std::uint32_t kSkipsPerNode = 16;
+
+  [[nodiscard]] bool may_stand_in(const Node& node, int size) const;
+  [[nodiscard]] bool excludes(const Node& node, int size) const;
   void turn_to(int angle);
   [[nodiscard]] std::int32_t least_penalty(const Node& node, int size) const;
 
@@ -87,6 +113,10 @@ class PoseTree {
   SearchWindow window_{};
   ScoreTable table_{};
   PriorPenalty penalty_{};
+  PoseSearchArea area_{};
+  PoseExclusion excluded_{};
+  int centre_column_ = 0;  // cell of the field in which the centre lies
+  int centre_row_ = 0;
   float rotation_step_rad_ = 0.0F;
   std::size_t point_count_ = 0;
   int half_cells_ = 0;
@@ -97,11 +127,12 @@ class PoseTree {
   std::array<std::int16_t, kMaxSearchPoints> row_{};
   std::int32_t turn_penalty_ = 0;
   std::uint32_t nodes_ = 0;
+  std::uint32_t skipped_ = 0;
 };
 
 /// Resumable: `begin`, then `step` until it returns true; `report` at any time. First every angle
 /// gets the bound of its best square, then the angles are searched in the order of their bounds
-/// (or by index), a row of squares at a time. Memory: 6 KiB. Context: cycle only; field and pyramid
+/// (or by index), a row of squares at a time. Memory: 4 KiB. Context: cycle only; field and pyramid
 /// must rest during the search for an exact answer.
 class PoseSearch {
  public:
@@ -111,7 +142,11 @@ class PoseSearch {
   /// `invalid_argument`: configuration, window, or a pyramid that does not fit the field; `full`:
   /// more than kMaxSearchAngles angles or kMaxRowSquares squares a row; `degenerate`: no points.
   Status begin(const DistanceFieldView& field, const MaxPyramidView& pyramid,
-               const PointsView& points, const SearchWindow& window, const PosePrior& prior = {});
+               const PointsView& points, const SearchWindow& window, const PosePrior& prior = {},
+               const PoseSearchArea& area = {});
+  /// After a search that ended exactly: the same question again, for poses that are not excluded
+  /// and score above `min_score`. The bounds of the angles are kept.
+  void begin_elsewhere(const PoseExclusion& excluded, float min_score);
 
   /// Evaluates about `max_nodes` more bounds, at most one row of squares more; true when over.
   /// Cost: about 25 instructions a point and node.
@@ -127,7 +162,10 @@ class PoseSearch {
  private:
   enum class Phase : std::uint8_t { done, bounding, choosing, rows, descending };
 
-  [[nodiscard]] std::size_t bound_row(int angle, int row);  // fills squares_
+  static constexpr std::uint16_t kSearched = 0x8000;  // flag of an angle; bounds are smaller
+
+  [[nodiscard]] PoseNode bounded_square(int x);
+  [[nodiscard]] std::int32_t score_units(float score) const;
   void bound_next_row();
   void choose_angle();
   void push_next_row();
@@ -135,7 +173,6 @@ class PoseSearch {
   PoseSearchConfig config_;
   PoseTree tree_{};
   BranchAndBound<PoseTree, kMaxRowSquares + kMaxPyramidLevels * PoseTree::kMaxChildren> search_{};
-  std::array<PoseNode, kMaxRowSquares> squares_{};
   std::array<std::uint16_t, kMaxSearchAngles> angle_bounds_{};
   std::size_t point_count_ = 0;
   Phase phase_ = Phase::done;

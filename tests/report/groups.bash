@@ -101,7 +101,7 @@ short_groups() {
     say "run: no ARM compiler or no QEMU (see build/arm-packages.log): the group target is skipped"
     export PICOLO_TARGETS=none
   fi
-  ctest_rows host-release "" --label-exclude '(^|-)slow$'
+  ctest_rows host-release "" --label-exclude '(^|-)slow(-|$)'
 }
 
 # Executions, seconds and executions a second of every target, as they are printed by tests/fuzz/run_target.
@@ -118,11 +118,11 @@ long_groups() {
   else
     record "target every-platform" packages skipped 0 "packages for ARM could not be installed"
   fi
-  ctest_rows host-release " slow" --label-regex '(^|-)slow$'
+  ctest_rows host-release " slow" --label-regex '(^|-)slow(-|$)'
   local builds=(host-release)
   if build_row host-debug; then
     builds+=(host-debug)
-    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow$'
+    ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
   compare_builds "${builds[@]}"
   fuzz_groups '^fuzz$'
@@ -138,14 +138,14 @@ campaign_groups() {
   local builds=(host-release)
   if build_row host-clang; then
     builds+=(host-clang)
-    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow$'
+    ctest_rows host-clang " host-clang" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
   if grep -qs avx2 /proc/cpuinfo && build_row host-avx2 "$tool"; then builds+=(host-avx2); fi
   compare_builds "${builds[@]}"
   if build_row host-asan; then
     export UBSAN_OPTIONS=print_stacktrace=1
     ctest_rows host-asan " host-asan" \
-      --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)slow$'
+      --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
   fuzz_groups '^fuzz_long$'
   lint_row

@@ -34,7 +34,8 @@ struct PipelineTest : ::testing::Test {
   std::array<float, kBeams> x_m{};
   std::array<float, kBeams> y_m{};
   std::unique_ptr<Localiser<SmallProfile>> localiser = std::make_unique<Localiser<SmallProfile>>();
-  Pipeline pipeline{configuration(), {first, second, x_m, y_m}, localiser->core()};
+  ControllerConfig config = configuration();
+  Pipeline pipeline{config, {first, second, x_m, y_m}, localiser->core()};
 
   /// Beams [from, to) of a lidar that stands still.
   void spin(int from, int to) {

@@ -71,6 +71,8 @@ class Pipeline {
   /// Everything referred to outlives the pipeline. Precondition: config.valid().
   Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
            LocaliserCore& localiser);
+  Pipeline(ControllerConfig&& config, const PipelineStorage& storage,
+           LocaliserCore& localiser) = delete;
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
   ~Pipeline() = default;

@@ -126,7 +126,7 @@ void LocaliserCore::update_uncertainty() {
       .motion = to_f32(between(accepted_odom_T_base_, sweep_.odom_T_base)),
       .elapsed_s = static_cast<float>(to_seconds_f64(reference_ - accepted_reference_))};
   const Conditioning conditioning = conditioning_of(report_.scan_information, report_.length_m);
-  const Matrix3f& prior = request_.prior.information;
+  const Matrix3f& prior = report_prior_;
   const NormalEquations3 constrained = observable_part({report_.scan_information, {}}, conditioning,
                                                        report_.length_m, config.max_condition);
   const Matrix3f fused = covariance_of(sum(constrained.h, prior), kUnknownVariance);

@@ -46,6 +46,7 @@ bool LocaliserCore::next_place() {
 void LocaliserCore::judge_place(const MatchReport& report) {
   if (relocalisation_ == Relocalisation::settling) {
     report_ = report;
+    report_prior_ = request_.prior.information;
     settled_ = true;
     relocalisation_ = Relocalisation::over;
     return;

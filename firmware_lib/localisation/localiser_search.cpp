@@ -22,6 +22,7 @@ void LocaliserCore::consider(const MatchReport& report) {
             : report.cost < report_.cost);
   if (has_report_ && (!usable(report.outcome) || !better)) { return; }
   report_ = report;
+  report_prior_ = request_.prior.information;
   has_report_ = true;
 }
 

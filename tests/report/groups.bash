@@ -125,7 +125,6 @@ long_groups() {
     ctest_rows host-debug " host-debug" --label-regex '^(unit|property)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
   compare_builds "${builds[@]}"
-  fuzz_groups '^fuzz$'
 }
 
 compare_builds() {
@@ -133,7 +132,7 @@ compare_builds() {
   "$root/tests/determinism/compare_builds" "$root/build" "$tool" "$@" >>"$records"
 }
 
-# Hours: the other compiler, AVX2, the sanitizers, ten times the fuzzing, lint.
+# Hours: the other compiler, AVX2, the sanitizers, fuzzing, lint.
 campaign_groups() {
   local builds=(host-release)
   if build_row host-clang; then
@@ -147,7 +146,7 @@ campaign_groups() {
     ctest_rows host-asan " host-asan" \
       --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
-  fuzz_groups '^fuzz_long$'
+  fuzz_groups '^(fuzz|fuzz_long)$'
   lint_row
 }
 

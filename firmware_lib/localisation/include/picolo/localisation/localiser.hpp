@@ -284,6 +284,7 @@ class LocaliserCore {
   Relocaliser relocaliser_;
   MatchRequest request_{};
   MatchReport report_{};
+  Matrix3f report_prior_{};  // information of the prediction that it used; searches use none
   Matrix3f prediction_information_{};  // base axes, without its weight
   float translation_sigma_m_ = 0.0F;
   float rotation_sigma_rad_ = 0.0F;

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "picolo/controller/calibration_routine.hpp"
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -15,10 +16,6 @@ namespace {
 
 constexpr int kMaxRestarts = 4;
 constexpr std::uint64_t kEncodersCertain = 100;  // samples
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 bool is_encoder(RefusalReason reason) {
   return reason == RefusalReason::encoder_disconnected ||

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
@@ -15,10 +16,6 @@ namespace {
 constexpr Duration kQuiet = 500ms;  // without a count: the vehicle stands
 constexpr double kGyroBlock_s = 0.1;
 constexpr Duration kLook = 250ms;  // a quarter of the looks each, all of them once a second
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 }  // namespace
 

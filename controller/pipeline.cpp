@@ -10,13 +10,6 @@ namespace {
 
 constexpr Duration kCoastStep = 10ms;  // between poses, as wheels give them
 
-Pose2d moved(const Twist2& twist, Duration time) {
-  const double time_s = to_seconds_f64(time);
-  return exp_se2(Tangent2<double>{static_cast<double>(twist.x_mps) * time_s,
-                                  static_cast<double>(twist.y_mps) * time_s,
-                                  static_cast<double>(twist.omega_radps) * time_s});
-}
-
 }  // namespace
 
 HealthReason why_rejected(MatchOutcome outcome) {
@@ -129,7 +122,9 @@ void Pipeline::bridge(Timestamp to) {
   // as before; over a long one the place is kept, and the match has to find the rest. The turn is
   // the gyro's where there is one.
   WheelIncrement gap{.from = from, .to = to};
-  if (to - from <= max_bridge_) { gap.from_T_to = moved(dead_reckoning_.base_twist(), to - from); }
+  if (to - from <= max_bridge_) {
+    gap.from_T_to = exp_se2(dead_reckoning_.base_twist(), to - from);
+  }
   dead_reckoning_.add(gap);
   (void)poses_.push(dead_reckoning_.pose());
   ++counters_.bridged;
@@ -150,7 +145,7 @@ void Pipeline::coast(Timestamp now) {
   coasting_ = true;
   guessed_ = true;
   if (!verdict_.accepted || now - verdict_.reference > coast_.max_age) { coast_twist_ = {}; }
-  dead_reckoning_.add({.from = from, .to = to, .from_T_to = moved(coast_twist_, to - from)});
+  dead_reckoning_.add({.from = from, .to = to, .from_T_to = exp_se2(coast_twist_, to - from)});
   (void)poses_.push(dead_reckoning_.pose());
   ++counters_.coasted;
 }

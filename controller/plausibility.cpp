@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/number_model.hpp"
 
@@ -18,10 +19,6 @@ constexpr std::int64_t kMaxElapsed_us =
     1'000'000'000;                        // the product of both stays inside of 64 bits
 constexpr std::int64_t kSlackCounts = 2;  // of sampling
 constexpr Duration kLongestStep = 50ms;   // between samples; beyond it a stream has fallen silent
-
-float magnitude(float x) {
-  return x < 0.0F ? -x : x;
-}
 
 }  // namespace
 

@@ -5,23 +5,12 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
-namespace {
-
-float square(float x) {
-  return x * x;
-}
-
-float magnitude(float x) {
-  return x < 0.0F ? -x : x;
-}
-
-}  // namespace
-
 PoseComposer::PoseComposer(const ControllerConfig& config)
     : odometry_noise_(config.localiser.uncertainty.odometry),
       set_pose_sigma_(config.set_pose),
@@ -85,14 +74,9 @@ PoseEstimate PoseComposer::compose(Timestamp now, const StampedPose& odometry,
                                    const Twist2& base_twist) {
   travel(odometry);
   const Duration ahead = std::clamp(Duration{now - odometry.stamp}, Duration{0}, max_prediction_);
-  const double ahead_s = to_seconds_f64(ahead);
-  const Pose2d predicted =
-      exp_se2(Tangent2<double>{static_cast<double>(base_twist.x_mps) * ahead_s,
-                               static_cast<double>(base_twist.y_mps) * ahead_s,
-                               static_cast<double>(base_twist.omega_radps) * ahead_s});
   PoseEstimate estimate;
   estimate.stamp = odometry.stamp + ahead;
-  estimate.odom_T_base = odometry.odom_T_base * predicted;
+  estimate.odom_T_base = odometry.odom_T_base * exp_se2(base_twist, ahead);
   estimate.map_T_base = map_T_odom_ * estimate.odom_T_base;
   estimate.base_twist = base_twist;
   estimate.last_jump = last_jump_;

@@ -7,6 +7,7 @@
 #include <bit>
 #include <numbers>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
@@ -20,11 +21,7 @@ constexpr std::uint32_t kPrime = 16'777'619U;
 constexpr std::uint16_t kFewReturns = 30;  // fewer prove nothing
 constexpr float kGravity_mps2 = 9.81F;
 
-float magnitude(float x) {
-  return x < 0.0F ? -x : x;
-}
-
-float dot(const std::array<float, 3>& a, const std::array<float, 3>& b) {
+float dot(const Axes& a, const Axes& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
@@ -65,19 +62,24 @@ SensorDoubts WheelStepCheck::add(const WheelTicks& ticks) {
   return doubts;
 }
 
+Duration AxesStream::add(Timestamp stamp, const Axes& axes, bool moving) {
+  const bool repeats = started_ && axes == newest_ && stamp - stamp_ <= kLongestStep;
+  if (!repeats || !moving) { changed_ = stamp; }
+  stamp_ = stamp;
+  newest_ = axes;
+  started_ = true;
+  return stamp - changed_;
+}
+
 bool GyroCheck::add(const ImuSample& sample, bool moving, float turn_difference_rad) {
-  const Duration step = sample.stamp - last_;
-  if (has_last_ && step <= Duration{0}) { return false; }
-  const bool repeats = has_last_ && sample.rate_radps == rate_radps_;
-  if (!repeats || !moving || step > kLongestStep) { changed_ = sample.stamp; }
-  const float leap_radps = magnitude(sample.rate_radps[2] - rate_radps_[2]);
-  const bool leaps = has_last_ && step <= kLongestStep &&
+  const Duration step = sample.stamp - rate_radps_.stamp();
+  if (rate_radps_.started() && step <= Duration{0}) { return false; }
+  const float leap_radps = magnitude(sample.rate_radps[2] - rate_radps_.newest()[2]);
+  const bool leaps = rate_radps_.started() && step <= kLongestStep &&
                      leap_radps > config_.max_gyro_leap_radps +
                                       config_.max_turn_acceleration_radps2 * to_seconds(step);
-  rate_radps_ = sample.rate_radps;
-  last_ = sample.stamp;
-  has_last_ = true;
-  const bool stuck = sample.stamp - changed_ >= config_.max_repetition &&
+  const Duration repeats = rate_radps_.add(sample.stamp, sample.rate_radps, moving);
+  const bool stuck = repeats >= config_.max_repetition &&
                      magnitude(turn_difference_rad) > config_.max_stuck_turn_rad;
   return leaps || stuck;
 }
@@ -96,27 +98,24 @@ void SweepCheck::add(const RangeReading& reading) {
 
 void GravityCheck::add(const ImuSample& sample, bool moving) {
   const Axes& now = sample.acceleration_mps2;
-  const Duration step = sample.stamp - last_;
-  if (has_last_ && step <= Duration{0}) { return; }
-  const bool repeats = has_last_ && now == newest_;
-  if (!repeats || !moving || step > kLongestStep) { changed_ = sample.stamp; }
-  if (!has_last_) { mean_ = now; }
+  const bool first = !acceleration_mps2_.started();
+  const Duration step = sample.stamp - acceleration_mps2_.stamp();
+  if (!first && step <= Duration{0}) { return; }
+  const Duration repeats = acceleration_mps2_.add(sample.stamp, now, moving);
+  if (first) { mean_ = now; }
   const float share = std::min(1.0F, to_seconds(step) / kMean_s);
   Axes off{};
   for (std::size_t axis = 0; axis < off.size(); ++axis) {
     off[axis] = now[axis] - mean_[axis];
-    if (has_last_) { mean_[axis] += share * off[axis]; }
+    if (!first) { mean_[axis] += share * off[axis]; }
   }
-  if (has_last_) { variance_ += share * (dot(off, off) - variance_); }
-  newest_ = now;
-  last_ = sample.stamp;
-  has_last_ = true;
+  if (!first) { variance_ += share * (dot(off, off) - variance_); }
 
   shaken_ = dot(off, off) > config_.max_shaking_mps2 * config_.max_shaking_mps2;
   const float squared = dot(mean_, mean_);
   const float least = kGravity_mps2 * (1.0F - config_.max_gravity_error);
   const float most = kGravity_mps2 * (1.0F + config_.max_gravity_error);
-  doubtful_ = sample.stamp - changed_ >= config_.max_repetition || squared < least * least ||
+  doubtful_ = repeats >= config_.max_repetition || squared < least * least ||
               squared > most * most ||
               variance_ > config_.max_vibration_mps2 * config_.max_vibration_mps2;
   if (!moving && upright_samples_ < kUpright && !doubtful_ && !shaken_) {

@@ -3,15 +3,12 @@
 
 #include "picolo/calibration/extrinsic_calibration.hpp"
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 bool finite(const Pose2d& pose) {
   return is_finite(pose.x_m) && is_finite(pose.y_m) && is_finite(pose.theta_rad);

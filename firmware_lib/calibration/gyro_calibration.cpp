@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
@@ -12,10 +13,6 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr std::uint64_t kBeforeGate = 20;
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 }  // namespace
 

@@ -6,16 +6,13 @@
 #include "drive_information.hpp"
 #include "joint_system.hpp"
 #include "picolo/calibration/order_statistic.hpp"
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 /// One rejection: the estimate that errors were taken against, and their limits.
 struct Round {

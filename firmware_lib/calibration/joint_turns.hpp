@@ -5,15 +5,12 @@
 #pragma once
 
 #include "picolo/calibration/samples.hpp"
+#include "picolo/core/arithmetic.hpp"
 
 namespace picolo::inline v0 {
 
 inline constexpr double kMedianToSigma = 1.4826;     // of |normal|
 inline constexpr double kMedianToRayleigh = 1.1774;  // sigma to median of a Rayleigh variable
-
-inline double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 struct Turns {
   double left;

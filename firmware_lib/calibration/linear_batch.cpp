@@ -4,6 +4,7 @@
 #include "picolo/calibration/linear_batch.hpp"
 
 #include "picolo/calibration/order_statistic.hpp"
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -20,8 +21,7 @@ struct Errors {
 Errors errors_of(const Matrix3d& correction, const MotionPair& pair) {
   const Pose2d o = corrected_by(correction, pair.odometry);
   const double rotation = wrap_angle(o.theta_rad - pair.scan.theta_rad);
-  return {hypotenuse(o.x_m - pair.scan.x_m, o.y_m - pair.scan.y_m),
-          rotation < 0.0 ? -rotation : rotation};
+  return {hypotenuse(o.x_m - pair.scan.x_m, o.y_m - pair.scan.y_m), magnitude(rotation)};
 }
 
 Errors limits_of(SampleSource<MotionPair>& source, const Matrix3d& correction,

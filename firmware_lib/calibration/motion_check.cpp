@@ -5,18 +5,11 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 
 namespace picolo::inline v0 {
-namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
-
-}  // namespace
-
 void SwingMeter::add(double change) {
   if (direction_ == 0) {  // no swing yet: watch both ways
     rise_ = std::max(rise_ + change, 0.0);

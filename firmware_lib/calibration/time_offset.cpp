@@ -6,20 +6,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/solve/normal_least_squares.hpp"
 
 namespace picolo::inline v0 {
-namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
-
-}  // namespace
-
 TimeOffsetCore::TimeOffsetCore(const TimeOffsetConfig& config, std::span<LagSums> lags,
                                std::span<WheelAngles> history, std::span<RotationInterval> waiting)
     : config_(config), lags_(lags), history_(history), waiting_(waiting) {}

@@ -4,16 +4,13 @@
 #include "picolo/calibration/wheel_batch.hpp"
 
 #include "picolo/calibration/wheel_walk.hpp"
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "wheel_solution.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 Status refuse(WheelReport& report, RefusalReason reason, Parameter parameter) {
   if (!report.refusal) { report.refusal = {reason, parameter}; }

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/number_model.hpp"
 
@@ -43,10 +44,6 @@ double step_m(Poses poses, std::size_t i) {
 
 double angle_rad(Poses poses, std::size_t i, std::size_t j) {
   return rotation_angle_rad(product(transpose(poses[i].rotation), poses[j].rotation));
-}
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
 }
 
 void by_frames(std::size_t count, const DeltaConfig& config, PairList& pairs) {

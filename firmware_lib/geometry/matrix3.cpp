@@ -27,6 +27,13 @@ Matrix3<T> sum(const Matrix3<T>& a, const Matrix3<T>& b) {
 }
 
 template <typename T>
+Matrix3<T> scaled(const Matrix3<T>& a, T factor) {
+  Matrix3<T> result = a;
+  for (T& element : result.elements) { element *= factor; }
+  return result;
+}
+
+template <typename T>
 Matrix3<T> transpose(const Matrix3<T>& a) {
   Matrix3<T> result;
   for (std::size_t row = 0; row < 3; ++row) {
@@ -52,6 +59,8 @@ template Matrix3<float> product(const Matrix3<float>&, const Matrix3<float>&);
 template Matrix3<double> product(const Matrix3<double>&, const Matrix3<double>&);
 template Matrix3<float> sum(const Matrix3<float>&, const Matrix3<float>&);
 template Matrix3<double> sum(const Matrix3<double>&, const Matrix3<double>&);
+template Matrix3<float> scaled(const Matrix3<float>&, float);
+template Matrix3<double> scaled(const Matrix3<double>&, double);
 template Matrix3<float> transpose(const Matrix3<float>&);
 template Matrix3<double> transpose(const Matrix3<double>&);
 template Matrix3<float> propagate(const Matrix3<float>&, const Matrix3<float>&);

@@ -3,17 +3,13 @@
 
 #include "picolo/geometry/pose2.hpp"
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-template <typename T>
-T magnitude(T x) {
-  return x < T{0} ? -x : x;
-}
 
 /// The four coefficients of V and Jr: a = sin t / t, b = (1 - cos t) / t, c = (t - sin t) / t^2, d
 /// = (1 - cos t) / t^2.
@@ -132,6 +128,13 @@ Pose2<T> interpolate(const Pose2<T>& from, const Pose2<T>& to, T share) {
   if (share == T{1}) { return to; }  // exact, which from + (to - from) is not
   return {from.x_m + share * (to.x_m - from.x_m), from.y_m + share * (to.y_m - from.y_m),
           wrap_angle(from.theta_rad + share * wrap_angle(to.theta_rad - from.theta_rad))};
+}
+
+Pose2d exp_se2(const Twist2& twist, Duration time) {
+  const double time_s = to_seconds_f64(time);
+  return exp_se2(Tangent2<double>{static_cast<double>(twist.x_mps) * time_s,
+                                  static_cast<double>(twist.y_mps) * time_s,
+                                  static_cast<double>(twist.omega_radps) * time_s});
 }
 
 Pose2d to_f64(const Pose2f& pose) {

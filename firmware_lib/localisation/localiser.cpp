@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
@@ -15,19 +16,9 @@ namespace {
 
 constexpr std::size_t kPointsPerInsertStep = 4096;  // of `process`; any number gives the same map
 
-float square(float x) {
-  return x * x;
-}
-
 Matrix3f rotation_of(float theta_rad) {
   const SinCos<float> yaw = sin_cos(theta_rad);
   return {{yaw.cosine, -yaw.sine, 0.0F, yaw.sine, yaw.cosine, 0.0F, 0.0F, 0.0F, 1.0F}};
-}
-
-Matrix3f scaled(const Matrix3f& matrix, float factor) {
-  Matrix3f result = matrix;
-  for (float& element : result.elements) { element *= factor; }
-  return result;
 }
 
 }  // namespace
@@ -249,7 +240,7 @@ void LocaliserCore::conclude() {
   accepted_odom_T_base_ = sweep_.odom_T_base;
   accepted_reference_ = reference_;
   const Pose2d since = between(last_inserted_, map_T_base_);
-  const double turn = since.theta_rad < 0.0 ? -since.theta_rad : since.theta_rad;
+  const double turn = magnitude(since.theta_rad);
   const double way_m = hypotenuse(since.x_m, since.y_m);
   const bool near = way_m < static_cast<double>(config_.insert_every_m) &&
                     turn < static_cast<double>(config_.insert_every_rad);

@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/localisation/localiser.hpp"
@@ -15,16 +16,6 @@ namespace picolo::inline v0 {
 namespace {
 
 constexpr float kUnknownVariance = 1e3F;  // m^2, rad^2
-
-float square(float x) {
-  return x * x;
-}
-
-Matrix3f scaled(const Matrix3f& matrix, float factor) {
-  Matrix3f result = matrix;
-  for (float& element : result.elements) { element *= factor; }
-  return result;
-}
 
 void add_square(const std::array<float, 3>& gradient, Matrix3f& sum_of_squares) {
   for (std::size_t row = 0; row < 3; ++row) {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/localisation/localiser.hpp"
@@ -51,7 +52,7 @@ bool LocaliserCore::begin_search() {
   if (searched_ || !worth_a_search()) { return false; }
   const SearchConfig& search = config_.search;
   const Pose2d motion = between(accepted_odom_T_base_, sweep_.odom_T_base);
-  const double turn = motion.theta_rad < 0.0 ? -motion.theta_rad : motion.theta_rad;
+  const double turn = magnitude(motion.theta_rad);
   const bool far = !with_odometry_ ||
                    hypotenuse(motion.x_m, motion.y_m) > static_cast<double>(search.after_m) ||
                    turn > static_cast<double>(search.after_rad);

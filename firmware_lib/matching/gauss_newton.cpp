@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "field_system.hpp"
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -105,7 +106,7 @@ bool GaussNewtonMatcher<Field>::step() {
       turned_rad < -config_.max_total_rad) {
     return finish(MatchOutcome::step_limit);
   }
-  const float turn_rad = solution.step[2] < 0.0F ? -solution.step[2] : solution.step[2];
+  const float turn_rad = magnitude(solution.step[2]);
   if (hypotenuse(solution.step[0], solution.step[1]) < config_.converged_m &&
       turn_rad < config_.converged_rad) {
     return finish(degenerate ? MatchOutcome::degenerate : MatchOutcome::converged);

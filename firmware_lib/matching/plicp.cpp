@@ -5,19 +5,12 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "pose_steps.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-float square(float x) {
-  return x * x;
-}
-
-float magnitude(float x) {
-  return x < 0.0F ? -x : x;
-}
 
 float squared_distance(const Point2f& a, const Point2f& b) {
   return square(a.x_m - b.x_m) + square(a.y_m - b.y_m);

@@ -7,6 +7,7 @@
 #include <array>
 #include <cstddef>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
@@ -57,7 +58,7 @@ inline Pose2f moved_by(const Pose2f& pose, const std::array<float, 3>& step) {
 /// direction stays.
 inline void shorten(float max_m, float max_rad, std::array<float, 3>& step) {
   const float length_m = hypotenuse(step[0], step[1]);
-  const float turn_rad = step[2] < 0.0F ? -step[2] : step[2];
+  const float turn_rad = magnitude(step[2]);
   float factor = 1.0F;
   if (length_m > max_m) { factor = max_m / length_m; }
   if (turn_rad * factor > max_rad) { factor = max_rad / turn_rad; }
@@ -65,7 +66,7 @@ inline void shorten(float max_m, float max_rad, std::array<float, 3>& step) {
 }
 
 inline bool is_below(float limit_m, float limit_rad, const std::array<float, 3>& step) {
-  const float turn_rad = step[2] < 0.0F ? -step[2] : step[2];
+  const float turn_rad = magnitude(step[2]);
   return hypotenuse(step[0], step[1]) < limit_m && turn_rad < limit_rad;
 }
 

@@ -3,6 +3,7 @@
 
 #include "picolo/odometry/motion_uncertainty.hpp"
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 
 namespace picolo::inline v0 {
@@ -13,8 +14,7 @@ void MotionUncertainty::add(const OdometryNoise& noise, const OdometryStep& step
   const float x_m = yaw.cosine * step.motion.x_m - yaw.sine * step.motion.y_m;
   const float y_m = yaw.sine * step.motion.x_m + yaw.cosine * step.motion.y_m;
   const float distance_m = hypotenuse(x_m, y_m);
-  const float turn_rad =
-      step.motion.theta_rad < 0.0F ? -step.motion.theta_rad : step.motion.theta_rad;
+  const float turn_rad = magnitude(step.motion.theta_rad);
   const float along_x = distance_m > 0.0F ? x_m / distance_m : yaw.cosine;
   const float along_y = distance_m > 0.0F ? y_m / distance_m : yaw.sine;
 

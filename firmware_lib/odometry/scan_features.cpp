@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/vector3_inline.hpp"
@@ -26,10 +27,6 @@ constexpr std::uint8_t kTaken = 4;      // beside a feature that was chosen
 constexpr std::uint8_t kEdge = 8;
 constexpr std::uint8_t kStrong = 16;
 constexpr std::uint8_t kInvalid = 32;
-
-float magnitude(float x) {
-  return x < 0.0F ? -x : x;
-}
 
 /// One ring and its work space, cut to its length.
 struct Ring {

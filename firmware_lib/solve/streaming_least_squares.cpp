@@ -6,16 +6,13 @@
 #include <algorithm>
 #include <limits>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/jacobi_svd.hpp"
 
 namespace picolo::inline v0 {
 namespace {
-
-double magnitude(double x) {
-  return x < 0.0 ? -x : x;
-}
 
 bool all_finite(std::span<const double> values) {
   return std::all_of(values.begin(), values.end(), [](double value) { return is_finite(value); });

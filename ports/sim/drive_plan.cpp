@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
 #include "picolo/geometry/angle.hpp"
@@ -66,8 +67,7 @@ DriveCommand DrivePlan::chase(const VehicleState& state) {
   }
   const double bearing_rad = arc_tangent2(target_.y_m - position.y_m, target_.x_m - position.x_m);
   const double error_rad = wrap_angle(bearing_rad - state.world_T_base.theta_rad);
-  const double magnitude_rad = error_rad < 0.0 ? -error_rad : error_rad;
-  const double slow_down = std::clamp(1.0 - magnitude_rad / kStandingTurnRad, 0.0, 1.0);
+  const double slow_down = std::clamp(1.0 - magnitude(error_rad) / kStandingTurnRad, 0.0, 1.0);
   const double can_stop_mps = square_root(limits_.max_acceleration_mps2 * gap_m);
   const double speed_mps = limits_.max_speed_mps * slow_down;
   return {.speed_mps = at_last_point ? std::min(speed_mps, can_stop_mps) : speed_mps,

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -15,10 +16,6 @@ namespace picolo::inline v0::sim {
 namespace {
 
 constexpr std::int64_t kCountLimit = std::int64_t{1} << 40;
-
-double magnitude(double value) {
-  return value < 0.0 ? -value : value;
-}
 
 /// Whole milliseconds, so that movements begin and end between steps of the simulation.
 Duration time_for(double amount, double rate) {

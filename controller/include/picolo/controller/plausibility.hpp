@@ -81,6 +81,7 @@ class TurnCheck {
  public:
   /// `config` outlives the check.
   explicit TurnCheck(const PlausibilityConfig& config) : config_(config) {}
+  explicit TurnCheck(PlausibilityConfig&& config) = delete;
 
   /// Rate about the vehicle's own axis, bias removed.
   void add_gyro(Timestamp stamp, float rate_radps);

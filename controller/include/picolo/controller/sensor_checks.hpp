@@ -43,22 +43,40 @@ class WheelStepCheck {
   bool has_rate_ = false;
 };
 
+using Axes = std::array<float, 3>;
+
+/// The newest sample of three axes, and how long they have repeated themselves to the bit while the
+/// vehicle moved. Cost: O(1). Context: cycle only.
+class AxesStream {
+ public:
+  [[nodiscard]] bool started() const { return started_; }
+  [[nodiscard]] Timestamp stamp() const { return stamp_; }
+  [[nodiscard]] const Axes& newest() const { return newest_; }
+  /// A sample later than the newest. For how long the same has come, without a gap; 0 at a change.
+  Duration add(Timestamp stamp, const Axes& axes, bool moving);
+
+ private:
+  Timestamp stamp_{};
+  Timestamp changed_{};
+  Axes newest_{};
+  bool started_ = false;
+};
+
 /// A gyro that repeats itself to the bit while the vehicle turns otherwise, or whose rate leaps.
 /// Repetition alone proves nothing: a coarse gyro says 0 all along a straight way. Cost: O(1).
 /// Context: cycle only.
 class GyroCheck {
  public:
+  /// `config` outlives the check.
   explicit GyroCheck(const PlausibilityConfig& config) : config_(config) {}
+  explicit GyroCheck(PlausibilityConfig&& config) = delete;
 
   /// `moving`: the wheels are. `turn_difference_rad`: TurnCheck's. True: doubtful.
   [[nodiscard]] bool add(const ImuSample& sample, bool moving, float turn_difference_rad);
 
  private:
   const PlausibilityConfig& config_;
-  Timestamp last_{};
-  Timestamp changed_{};  // since when it repeats itself
-  std::array<float, 3> rate_radps_{};
-  bool has_last_ = false;
+  AxesStream rate_radps_;
 };
 
 /// A lidar whose revolution repeats the one before to the bit. Cost: O(1). Context: cycle only.
@@ -80,7 +98,9 @@ class SweepCheck {
 /// accelerometer itself can be believed. Cost: O(1). Context: cycle only.
 class GravityCheck {
  public:
+  /// `config` outlives the check.
   explicit GravityCheck(const PlausibilityConfig& config) : config_(config) {}
+  explicit GravityCheck(PlausibilityConfig&& config) = delete;
 
   /// `moving`: the wheels are. Upright is how it stood at first.
   void add(const ImuSample& sample, bool moving);
@@ -92,16 +112,12 @@ class GravityCheck {
   [[nodiscard]] bool doubtful() const { return doubtful_; }
 
  private:
-  using Axes = std::array<float, 3>;
   const PlausibilityConfig& config_;
-  Timestamp last_{};
-  Timestamp changed_{};
-  Axes newest_{};
+  AxesStream acceleration_mps2_;
   Axes mean_{};
   Axes upright_{};
   float variance_ = 0.0F;
   std::uint16_t upright_samples_ = 0;
-  bool has_last_ = false;
   bool tilted_ = false;
   bool shaken_ = false;
   bool doubtful_ = false;

@@ -35,11 +35,13 @@ struct Matrix3 {
 using Matrix3f = Matrix3<float>;
 using Matrix3d = Matrix3<double>;
 
-/// a * b, a + b, transpose: for `T` float and double. Cost: at most 27 multiplications.
+/// a * b, a + b, factor * a, transpose: for `T` float and double. Cost: at most 27 multiplications.
 template <typename T>
 [[nodiscard]] Matrix3<T> product(const Matrix3<T>& a, const Matrix3<T>& b);
 template <typename T>
 [[nodiscard]] Matrix3<T> sum(const Matrix3<T>& a, const Matrix3<T>& b);
+template <typename T>
+[[nodiscard]] Matrix3<T> scaled(const Matrix3<T>& a, T factor);
 template <typename T>
 [[nodiscard]] Matrix3<T> transpose(const Matrix3<T>& a);
 /// j * covariance * j^T, symmetrised.

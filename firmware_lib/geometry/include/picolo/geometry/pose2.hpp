@@ -7,6 +7,7 @@
 /// `float` (relative to the map window, per sweep) and `double` (world poses).
 #pragma once
 
+#include "picolo/core/time.hpp"
 #include "picolo/geometry/matrix3.hpp"
 
 namespace picolo::inline v0 {
@@ -67,6 +68,8 @@ template <typename T>
 /// exp: se(2) -> SE(2), series near zero rotation. Finite and accurate for every |theta| <= pi.
 template <typename T>
 [[nodiscard]] Pose2<T> exp_se2(const Tangent2<T>& tangent);
+/// The motion of a constant twist that lasts.
+[[nodiscard]] Pose2d exp_se2(const Twist2& twist, Duration time);
 /// log: SE(2) -> se(2), the inverse of exp_se2 for |theta| < pi.
 template <typename T>
 [[nodiscard]] Tangent2<T> log_se2(const Pose2<T>& pose);

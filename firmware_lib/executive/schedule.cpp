@@ -85,10 +85,12 @@ bool Schedule::take(std::size_t task) {
     ++state.counters.skipped;
     return false;
   }
+  running_ = static_cast<std::uint8_t>(task);
   return true;
 }
 
 void Schedule::finish(std::size_t task, Duration time, std::uint32_t cycles, bool passed) {
+  running_ = kNoTask;
   TaskState& state = states_[task];
   TaskCounters& counters = state.counters;
   ++counters.runs;
@@ -103,6 +105,7 @@ void Schedule::finish(std::size_t task, Duration time, std::uint32_t cycles, boo
   if (time <= table_[task].budget) { return; }
   ++counters.overruns;
   ++overruns_;
+  if (!faulted_) { overran_ = static_cast<std::uint8_t>(task); }
   state.skip_next = table_[task].policy == OverrunPolicy::skip_next;
   faulted_ = faulted_ || table_[task].policy == OverrunPolicy::fault;
 }

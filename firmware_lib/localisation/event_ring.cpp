@@ -24,6 +24,7 @@ const char* to_string(EventCode code) {
     case EventCode::command_refused: return "command_refused";
     case EventCode::impersonated: return "impersonated";
     case EventCode::sensor_doubted: return "sensor_doubted";
+    case EventCode::watchdog_reset: return "watchdog_reset";
   }
   return "unknown";
 }

@@ -73,18 +73,5 @@ TEST(FreeRunning, ABoardDrivesByItsOwnClock) {
   }
 }
 
-TEST(FreeRunning, TheWatchdogResetsABoardWhoseCycleHangs) {
-  PICOLO_NEED_IMAGES();
-  for (const Platform& platform : boards_with_devices()) {
-    const Outcome outcome =
-        run(platform, "free_running", {"3", "1", "hang"}, "-icount shift=1,sleep=off");
-    EXPECT_EQ(outcome.status, 0) << platform.name;
-    // Told after the reset: its NMI came first, events and flash have survived.
-    EXPECT_NE(outcome.output.find("barks 1\n"), std::string::npos) << outcome.output;
-    EXPECT_EQ(outcome.output.find("events 0"), std::string::npos) << outcome.output;
-    EXPECT_NE(outcome.output.find("store_survived 1\n"), std::string::npos) << outcome.output;
-  }
-}
-
 }  // namespace
 }  // namespace picolo::target

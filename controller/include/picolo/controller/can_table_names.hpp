@@ -118,7 +118,8 @@ inline constexpr std::array kEventCodeNames{
     CanName{3, "overrun"},          CanName{4, "frames_slipped"}, CanName{5, "sweep_replaced"},
     CanName{6, "sweep_dropped"},    CanName{7, "pose_jump"},      CanName{8, "device_lost"},
     CanName{9, "device_back"},      CanName{10, "pose_set"},      CanName{11, "mode_set"},
-    CanName{12, "command_refused"}, CanName{13, "impersonated"},  CanName{14, "sensor_doubted"}};
+    CanName{12, "command_refused"}, CanName{13, "impersonated"},  CanName{14, "sensor_doubted"},
+    CanName{15, "watchdog_reset"}};
 inline constexpr std::array kCalibrationPhaseNames{
     CanName{0, "idle"},     CanName{1, "collecting"}, CanName{2, "solving"},
     CanName{3, "done"},     CanName{4, "refused"},    CanName{5, "aborted"},

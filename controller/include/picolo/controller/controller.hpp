@@ -65,8 +65,8 @@ class Controller {
         supervisor_(config_.health, config_.trust, events),
         reporter_(config_.frames_out, board.can),
         desk_(config_.frames_out, services, pipeline_, composer_, supervisor_, reporter_),
-        executive_(config_.cycle, controller_tasks(config_.work, config_.budgets), board.clock,
-                   board.cycle_counter, board.watchdog) {}
+        executive_(config_.cycle, controller_tasks(config_.work, config_.budgets, config_.policies),
+                   board.clock, board.cycle_counter, board.watchdog) {}
   Controller(const Controller&) = delete;
   Controller& operator=(const Controller&) = delete;
   ~Controller() = default;

@@ -49,6 +49,19 @@ struct TaskBudgets {
   Duration report{400};
 };
 
+/// What an overrun of each task means. A task that is bounded by its work but waits for a device
+/// (a flash, a bus) may deserve more than a count.
+struct TaskPolicies {
+  OverrunPolicy can = OverrunPolicy::carry_on;
+  OverrunPolicy serial = OverrunPolicy::carry_on;
+  OverrunPolicy odometry = OverrunPolicy::carry_on;
+  OverrunPolicy undistort = OverrunPolicy::carry_on;
+  OverrunPolicy match = OverrunPolicy::carry_on;
+  OverrunPolicy map = OverrunPolicy::carry_on;
+  OverrunPolicy background = OverrunPolicy::carry_on;
+  OverrunPolicy report = OverrunPolicy::carry_on;
+};
+
 /// How well a command that sets the pose knows it: standard deviations.
 struct SetPoseSigma {
   float position_m = 0.1F;  ///< along each axis
@@ -86,6 +99,7 @@ struct ControllerConfig {
   ExecutiveConfig cycle{};
   WorkBounds work{};
   TaskBudgets budgets{};
+  TaskPolicies policies{};
   DifferentialDriveConfig drive{};
   DeadReckoningConfig dead_reckoning{};
   SweepAssemblerConfig sweeps{};
@@ -121,19 +135,38 @@ enum class ControllerTask : std::uint8_t {
 inline constexpr std::size_t kControllerTasks = 8;
 
 /// The static table: who runs when, bounded by what.
-[[nodiscard]] constexpr TaskTable<kControllerTasks> controller_tasks(const WorkBounds& work,
-                                                                     const TaskBudgets& budgets) {
-  return {
-      TaskEntry{.name = "can", .work_bound = work.max_can_frames, .budget = budgets.can},
-      TaskEntry{.name = "serial", .work_bound = work.max_serial_bytes, .budget = budgets.serial},
-      TaskEntry{.name = "odometry", .budget = budgets.odometry},
-      TaskEntry{.name = "undistort", .work_bound = work.max_returns, .budget = budgets.undistort},
-      TaskEntry{.name = "match", .work_bound = work.max_point_iterations, .budget = budgets.match},
-      TaskEntry{.name = "map", .work_bound = work.max_rays, .budget = budgets.map},
-      TaskEntry{
-          .name = "background", .work_bound = work.max_search_slices, .budget = budgets.background},
-      TaskEntry{
-          .name = "report", .period_frames = 5, .offset_frames = 4, .budget = budgets.report}};
+[[nodiscard]] constexpr TaskTable<kControllerTasks> controller_tasks(
+    const WorkBounds& work, const TaskBudgets& budgets, const TaskPolicies& policies = {}) {
+  return {TaskEntry{.name = "can",
+                    .work_bound = work.max_can_frames,
+                    .budget = budgets.can,
+                    .policy = policies.can},
+          TaskEntry{.name = "serial",
+                    .work_bound = work.max_serial_bytes,
+                    .budget = budgets.serial,
+                    .policy = policies.serial},
+          TaskEntry{.name = "odometry", .budget = budgets.odometry, .policy = policies.odometry},
+          TaskEntry{.name = "undistort",
+                    .work_bound = work.max_returns,
+                    .budget = budgets.undistort,
+                    .policy = policies.undistort},
+          TaskEntry{.name = "match",
+                    .work_bound = work.max_point_iterations,
+                    .budget = budgets.match,
+                    .policy = policies.match},
+          TaskEntry{.name = "map",
+                    .work_bound = work.max_rays,
+                    .budget = budgets.map,
+                    .policy = policies.map},
+          TaskEntry{.name = "background",
+                    .work_bound = work.max_search_slices,
+                    .budget = budgets.background,
+                    .policy = policies.background},
+          TaskEntry{.name = "report",
+                    .period_frames = 5,
+                    .offset_frames = 4,
+                    .budget = budgets.report,
+                    .policy = policies.report}};
 }
 
 constexpr bool ControllerConfig::valid() const {

@@ -57,6 +57,8 @@ struct NoTaskObserver {
 /// every decision repeats, whatever the machine's speed. Context: one, the cycle.
 template <TimeSource Time, CycleSource Cycles, WatchdogLike Dog, std::size_t Tasks>
 class Executive {
+  static_assert(Tasks < Schedule::kNoTask);
+
  public:
   Executive(const ExecutiveConfig& config, const TaskTable<Tasks>& table, Time& time,
             Cycles& cycles, Dog& watchdog)

@@ -69,6 +69,16 @@ class Schedule {
   /// Overruns of all tasks together.
   [[nodiscard]] std::uint32_t overruns() const { return overruns_; }
 
+  /// No task; no table is that long.
+  static constexpr std::uint8_t kNoTask = 0xFF;
+  /// The task that keeps the open frame from ending though the next one is due, or kNoTask.
+  /// Context: any; the watchdog's early warning asks it of a cycle that hangs.
+  [[nodiscard]] std::uint8_t stuck_in(Timestamp now) const {
+    return now - next_release_ >= config_.minor_frame ? running_ : kNoTask;
+  }
+  /// The task of the newest overrun, after a fault by policy the one that faulted; or kNoTask.
+  [[nodiscard]] std::uint8_t overran() const { return overran_; }
+
  private:
   void slip(std::int64_t frames);
   void begin_round();
@@ -82,6 +92,8 @@ class Schedule {
   std::uint32_t number_ = 0;
   std::uint32_t position_ = 0;  // of the open or next frame in its major frame
   std::uint32_t overruns_ = 0;
+  std::uint8_t running_ = kNoTask;  // between `take` and `finish`
+  std::uint8_t overran_ = kNoTask;
   bool started_ = false;
   bool faulted_ = false;
 };

@@ -36,6 +36,8 @@ enum class EventCode : std::uint8_t {
   /// What it says cannot be; argument: 0 left wheel, 1 right wheel, 2 lidar, 3 gyro, 4
   /// accelerometer.
   sensor_doubted = 14,
+  /// The watchdog ended the run before; argument: index of the task to blame, -1 for none.
+  watchdog_reset = 15,
 };
 
 [[nodiscard]] const char* to_string(EventCode code);

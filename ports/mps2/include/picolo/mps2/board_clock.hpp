@@ -19,7 +19,8 @@ class BoardClock final : public Clock {
   /// Starts the timer. `first_count`: what it shows at time 0; close to 2^32 for a test of its
   /// wrap.
   explicit BoardClock(std::uint32_t first_count = 0);
-  /// Context: the cycle and every interrupt but the NMI.
+  /// Context: the cycle and every interrupt but the NMI; an NMI that never returns may ask, too,
+  /// and be told a wrong wrap when it came in the middle of another's asking.
   [[nodiscard]] Timestamp now() override;
 
  private:

@@ -1,0 +1,155 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+
+// The robot with a lidar whose port holds the cycle up. Words: what an overrun of the task `serial`
+// means (carry_on, skip_next, fault), in how many frames from the hundredth on the port spins, and
+// for how many microseconds each time (0: it never returns). Figures of 1.5 s go to the debugger,
+// or, after a reset by the watchdog, what the run before left behind, and figures of half a second.
+
+#include <cstring>
+#include <new>
+
+#include "picolo/controller/last_words.hpp"
+#include "platform.hpp"
+#include "robot.hpp"
+
+namespace picolo {
+namespace {
+
+constexpr std::uint32_t kFirstSpin = 50;
+constexpr std::uint32_t kTicks = 240;
+constexpr std::uint32_t kTicksAfterReset = 60;
+
+/// Survives a reset.
+struct Survivor {
+  EventRing events;
+  LastWords words;
+};
+
+[[gnu::section(".noinit")]] Survivor g_survivor;
+alignas(64) constinit std::byte g_board[sizeof(mps2::Mps2Board)];
+alignas(64) constinit std::byte g_robot[sizeof(FreeRunningRobot)];
+constinit const Schedule* g_schedule = nullptr;
+constinit Clock* g_clock = nullptr;
+
+class SpinningPort final : public SerialPort {
+ public:
+  SpinningPort(SerialPort& port, Clock& clock) : port_(port), clock_(clock) {}
+
+  /// The next read takes so long; 0: for ever.
+  void spin(Duration time) {
+    time_ = time;
+    spins_ = true;
+  }
+  [[nodiscard]] bool spins() const { return spins_; }
+  Result<SerialRead> read(std::span<std::uint8_t> buffer) override {
+    if (spins_) {
+      spins_ = false;
+      for (const Timestamp start = clock_.now();
+           time_ == Duration{0} || clock_.now() - start < time_;) {}
+    }
+    return port_.read(buffer);
+  }
+  Result<std::size_t> write(std::span<const std::uint8_t> bytes) override {
+    return port_.write(bytes);
+  }
+  [[nodiscard]] std::uint32_t baud() const override { return port_.baud(); }
+  [[nodiscard]] std::uint32_t lost() const override { return port_.lost(); }
+
+ private:
+  SerialPort& port_;
+  Clock& clock_;
+  Duration time_{};
+  bool spins_ = false;
+};
+
+OverrunPolicy asked_policy() {
+  char text[16];
+  platform::argument(0, text);
+  if (std::strcmp(text, "fault") == 0) { return OverrunPolicy::fault; }
+  return std::strcmp(text, "skip_next") == 0 ? OverrunPolicy::skip_next : OverrunPolicy::carry_on;
+}
+
+void tell_reset(const ResetReport& report, const Schedule& schedule) {
+  constexpr const char* kCauses[] = {"fault", "stuck", "starved"};
+  platform::write("reset by watchdog, task ");
+  platform::write(report.task < schedule.size() ? schedule.entry(report.task).name : "none");
+  platform::write(", cause ");
+  platform::write(kCauses[static_cast<std::size_t>(report.cause)]);
+  platform::write("\n");
+  tell("reset_task", report.task);
+  tell("reset_cause", static_cast<std::uint64_t>(report.cause));
+  tell("reset_frames", report.frames);
+  tell("reset_slipped", report.slipped);
+  tell("reset_overruns", report.overruns);
+  tell("resets", report.resets);
+}
+
+/// How often it is in the ring, and what its last argument was.
+void tell_events(EventCode code, const char* count_name, const char* argument_name) {
+  std::uint32_t count = 0;
+  std::int32_t argument = 0;
+  for (std::size_t i = 0; i < g_survivor.events.size(); ++i) {
+    const Event& event = g_survivor.events[i];
+    if (event.code != code) { continue; }
+    ++count;
+    argument = event.argument;
+  }
+  tell(count_name, count);
+  tell(argument_name, static_cast<std::uint32_t>(argument));
+}
+
+int run() {
+  const Result<ResetReport> reset = g_survivor.words.take(g_survivor.events);
+  auto& board = *new (g_board) mps2::Mps2Board({});
+  SpinningPort lidar{board.lidar, board.clock};
+  auto& robot = *new (g_robot) FreeRunningRobot({.board = board,
+                                                 .lidar = lidar,
+                                                 .store = board.store,
+                                                 .policies = {.serial = asked_policy()}},
+                                                g_survivor.events);
+  const Schedule& schedule = robot.controller().schedule();
+  g_schedule = &schedule;
+  g_clock = &board.clock;
+  std::uint32_t spins = reset ? 0 : word_as_number(1);
+  const Duration time{word_as_number(2)};
+  board.start(5ms);
+  if (!is_ok(robot.start())) { return 1; }
+  while (board.frame_timer.ticks() < (reset ? kTicksAfterReset : kTicks)) {
+    // Without another interrupt beside the tick QEMU sleeps through every second one.
+    while (!board.frame_timer.take()) {}
+    if (spins > 0 && !lidar.spins() && board.frame_timer.ticks() >= kFirstSpin) {
+      --spins;
+      lidar.spin(time);
+    }
+    robot.run_frames();
+  }
+  if (reset) { tell_reset(*reset, schedule); }
+  tell("store_survived", board.store.survived() ? 1 : 0);
+  tell_cycle(schedule);
+  const TaskCounters& serial = schedule.counters(static_cast<std::size_t>(ControllerTask::serial));
+  tell("serial_runs", serial.runs);
+  tell("serial_slips", serial.slips);
+  tell("serial_skipped", serial.skipped);
+  tell("serial_worst_us", serial.worst_cycles / mps2::kTicksPerUs);
+  tell_events(EventCode::overrun, "overrun_events", "overrun_task");
+  tell_events(EventCode::watchdog_reset, "reset_events", "reset_event_task");
+  tell("faulted", schedule.faulted() ? 1 : 0);
+  tell("state", static_cast<std::uint64_t>(robot.controller().estimate().state));
+  tell("reason", static_cast<std::uint64_t>(robot.controller().estimate().reason));
+  return 0;
+}
+
+}  // namespace
+}  // namespace picolo
+
+/// The watchdog's first word. The reset comes by itself.
+extern "C" void nmi_handler() {
+  // Started after both were set.
+  picolo::g_survivor.words.note(*picolo::g_schedule, picolo::g_clock->now());
+  while (true) { __asm__ volatile("" ::: "memory"); }
+}
+
+int main() {
+  picolo::platform::leave(picolo::run());
+}

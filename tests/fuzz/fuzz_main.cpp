@@ -13,7 +13,8 @@ namespace picolo::fuzz {
 namespace {
 
 const Target* g_target = nullptr;
-bool g_trap = false;
+// Of the thread that fuzzes: another of the fuzzer's own may begin meanwhile, and allocates.
+thread_local bool g_trap = false;
 
 void on_malloc(const volatile void* /*pointer*/, std::size_t /*size*/) {
   if (!g_trap) { return; }

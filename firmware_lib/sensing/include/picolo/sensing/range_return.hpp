@@ -16,6 +16,7 @@ struct RangeReading {
   float range_m = 0.0F;       ///< 0 when nothing came back
   float bearing_rad = 0.0F;   ///< counter-clockwise from the sensor's x axis, in [-pi, pi]
   bool starts_sweep = false;  ///< first reading of a new revolution
+  bool ends_sweep = false;    ///< last one, where the device tells; else the next start does
 };
 
 /// One beam inside of a sweep. 12 bytes.

@@ -80,6 +80,7 @@ void Pipeline::add(RangeReading reading) {
   sweep_check_.add(reading);
   if (moving_ && sweep_check_.repeats()) { doubt(SensorIndex::lidar, newest_sample_); }
   sweeps_.add(reading);
+  if (reading.ends_sweep) { last_reading_ = reading.stamp; }
   if (sweeps_.counters().completed != completed) { last_sweep_end_ = last_reading_; }
   last_reading_ = reading.stamp;
 }

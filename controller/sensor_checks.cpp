@@ -84,16 +84,20 @@ bool GyroCheck::add(const ImuSample& sample, bool moving, float turn_difference_
   return leaps || stuck;
 }
 
+void SweepCheck::compare() {
+  if (hash_ == kNothing) { return; }  // compared already: the revolution told its end
+  repeats_ = returns_ >= kFewReturns && hash_ == last_hash_;
+  // The single readings that end a revolution of some lidars are none.
+  if (returns_ > 0) { last_hash_ = hash_; }
+  hash_ = kNothing;
+  returns_ = 0;
+}
+
 void SweepCheck::add(const RangeReading& reading) {
-  if (reading.starts_sweep) {
-    repeats_ = returns_ >= kFewReturns && hash_ == last_hash_;
-    // The single readings that end a revolution of some lidars are none.
-    if (returns_ > 0) { last_hash_ = hash_; }
-    hash_ = kNothing;
-    returns_ = 0;
-  }
+  if (reading.starts_sweep) { compare(); }
   hash_ = (hash_ ^ std::bit_cast<std::uint32_t>(reading.range_m)) * kPrime;
   if (reading.range_m > 0.0F && returns_ < kFewReturns) { ++returns_; }
+  if (reading.ends_sweep) { compare(); }
 }
 
 void GravityCheck::add(const ImuSample& sample, bool moving) {

@@ -138,9 +138,9 @@ RplidarNode RplidarCapsules::make_node(std::int32_t angle_q16, std::uint32_t dis
           .flag = sync ? std::uint8_t{1} : std::uint8_t{2}};
 }
 
-/// True at the first node behind the place where the nominal angle passes 360 degrees.
+/// True at the last node before the nominal angle passes 360 degrees, as in the vendor's library.
 bool RplidarCapsules::starts_scan(std::int32_t angle_q16, std::int32_t step_q16) {
-  // In dense mode the vendor's library starts one node earlier.
+  // In dense mode also at the node behind, where that one is missing.
   const std::int32_t reach_q16 = mode_ == RplidarMode::dense ? 2 * step_q16 : step_q16;
   const bool inside = (angle_q16 + step_q16) % kFullTurnQ16 < reach_q16;
   const bool first = inside && !last_sync_;
@@ -154,6 +154,8 @@ std::size_t RplidarCapsules::decode_express(std::int32_t span_q8, std::span<Rpli
   std::size_t count = 0;
   for (std::size_t cabin = 0; cabin < kExpressCabins; ++cabin) {
     const std::size_t at = kHeader + 5 * cabin;
+    // Never negative, like the optical offset of ultra capsules: 7.5 degrees and up to half of one
+    // more, minus what grows with nearness. Some public decoders read bit 5 as a sign.
     const unsigned offsets = previous_[at + 4];
     for (std::size_t half = 0; half < 2; ++half) {
       const unsigned word = load_u16_le(previous_, at + 2 * half);

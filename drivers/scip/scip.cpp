@@ -73,7 +73,8 @@ void ScipProtocol::text_line(ByteView text, const ByteTime& time) {
     model_known_ = true;
     return;
   }
-  counters_.skipped_bytes += static_cast<std::uint32_t>(text.size() + 1);
+  // The empty line behind an answer tells nothing new.
+  if (!text.empty()) { counters_.skipped_bytes += static_cast<std::uint32_t>(text.size() + 1); }
 }
 
 void ScipProtocol::end_scan(std::size_t offset) {
@@ -132,7 +133,10 @@ void ScipProtocol::end_line(const ByteTime& time) {
     if (scan_.may_end_at(start)) { end_scan(start); }
     return;
   }
-  if (scan_.line(start, text) || two_lines(start, text)) { return; }
+  if (scan_.line(start, text) || two_lines(start, text)) {
+    if (scan_.has_last_line()) { end_scan(offset_); }
+    return;
+  }
   if (parse_scip_echo(text)) {
     // The empty line was lost. The next scan begins when this one has been taken.
     end_scan(start);
@@ -178,6 +182,7 @@ std::size_t ScipProtocol::pull(std::span<RangeReading> readings) {
     reading.bearing_rad = clockwise_bearing_rad(static_cast<std::int32_t>(model.front_step) - step,
                                                 static_cast<std::int32_t>(model.steps_per_turn));
     reading.starts_sweep = next_value_ == 0;
+    reading.ends_sweep = next_value_ + 1 == scan_values_;
     last_stamp_ = reading.stamp;
   }
   counters_.samples += static_cast<std::uint32_t>(count);

@@ -55,6 +55,14 @@ void SweepAssemblerCore::add(const RangeReading& reading) {
     return;
   }
   last_stamp_ = reading.stamp;
+  store(reading);
+  if (reading.ends_sweep) {
+    complete();
+    in_sweep_ = false;
+  }
+}
+
+void SweepAssemblerCore::store(const RangeReading& reading) {
   if (size_ == buffers_[filling_].size()) {
     ++counters_.overflowed;
     return;

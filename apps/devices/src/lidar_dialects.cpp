@@ -35,11 +35,14 @@ class CommandedLidar : public LidarDialect {
 
 class RplidarDialect final : public CommandedLidar {
  public:
-  RplidarDialect(SerialPort& ld06, bool dense) : CommandedLidar(ld06), dense_(dense) {}
+  RplidarDialect(SerialPort& ld06, const std::string& mode)
+      : CommandedLidar(ld06),
+        capsules_(mode == "express" || mode == "dense"),
+        dense_(mode == "dense") {}
 
  private:
   void packet(const Ld06Packet& packet, Timestamp stamp) override {
-    const Bytes bytes = dense_ ? capsules(packet) : nodes(packet);
+    const Bytes bytes = capsules_ ? capsules(packet) : nodes(packet);
     if (scanning_ && !bytes.empty()) { say(bytes, stamp); }
     for (const Bytes& answer : answers_) { say(answer, stamp); }
     answers_.clear();
@@ -59,23 +62,30 @@ class RplidarDialect final : public CommandedLidar {
     return bytes;
   }
 
-  /// A capsule has 40 points, a packet 12: now and then one is full.
+  /// A capsule has 32 or 40 points, a packet 12: now and then one is full.
   Bytes capsules(const Ld06Packet& packet) {
-    constexpr std::size_t kCapsule = 84;
     Bytes full;
     for (std::size_t i = 0; i < packet.points.size(); ++i) {
-      if (capsule_.empty()) {
-        capsule_ = {0, 0};
-        add_u16(capsule_, angle_q6(packet, i));
-      }
-      add_u16(capsule_, packet.points[i].distance_mm);
-      if (capsule_.size() < kCapsule) { continue; }
-      const std::uint8_t sum = xor8(ByteView{capsule_}.subspan(2));
-      capsule_[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
-      capsule_[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
-      full = std::exchange(capsule_, {});
+      if (points_mm_.empty()) { start_q6_ = angle_q6(packet, i); }
+      points_mm_.push_back(packet.points[i].distance_mm);
+      if (points_mm_.size() < (dense_ ? 40 : 32)) { continue; }
+      full = capsule();
+      points_mm_.clear();
     }
     return full;
+  }
+
+  [[nodiscard]] Bytes capsule() const {
+    Bytes bytes{0, 0};
+    add_u16(bytes, start_q6_);
+    for (std::size_t i = 0; i < points_mm_.size(); ++i) {
+      add_u16(bytes, dense_ ? points_mm_[i] : std::min(points_mm_[i], 16'383U) << 2U);
+      if (!dense_ && i % 2 == 1) { bytes.push_back(0); }  // no beam looks beside its angle
+    }
+    const std::uint8_t sum = xor8(ByteView{bytes}.subspan(2));
+    bytes[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
+    bytes[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+    return bytes;
   }
 
   void command(std::uint8_t letter) override {
@@ -86,20 +96,23 @@ class RplidarDialect final : public CommandedLidar {
       answers_.push_back(answer);
     }
     if (letter == 0x52) { answers_.push_back({0xA5, 0x5A, 0x03, 0, 0, 0, 0x06, 0, 0, 0}); }
-    if (letter == 0x20 && !dense_) {
+    if (letter == 0x20 && !capsules_) {
       answers_.push_back({0xA5, 0x5A, 0x05, 0, 0, 0x40, 0x81});
       starts_ = true;
     }
-    if (letter == 0x82 && dense_) {
-      answers_.push_back({0xA5, 0x5A, 0x54, 0, 0, 0x40, 0x85});
+    if (letter == 0x82 && capsules_) {
+      answers_.push_back(
+          {0xA5, 0x5A, 0x54, 0, 0, 0x40, dense_ ? std::uint8_t{0x85} : std::uint8_t{0x82}});
       starts_ = true;
-      capsule_.clear();
+      points_mm_.clear();
     }
   }
 
+  const bool capsules_;
   const bool dense_;
   TurnCutter cutter_{360 * 64};
-  Bytes capsule_;
+  std::uint32_t start_q6_ = 0;
+  std::vector<unsigned> points_mm_;
   std::vector<Bytes> answers_;
   bool scanning_ = false;
   bool starts_ = false;
@@ -144,7 +157,7 @@ class YdlidarDialect final : public CommandedLidar {
 
 void refuse_dialect(const std::string& name) {
   throw std::invalid_argument{"the simulated vehicle cannot speak '" + name +
-                              "'; lidars: ld06, rplidar (standard and dense), ydlidar, scip; IMUs: "
+                              "'; lidars: ld06, rplidar (all but ultra), ydlidar, scip; IMUs: "
                               "witmotion, xsens, vectornav, bno08x-rvc; wheels: canopen, odrive, "
                               "vesc, dbc"};
 }
@@ -152,9 +165,7 @@ void refuse_dialect(const std::string& name) {
 SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06,
                                      const std::string& mode) {
   if (name == "ld06") { return make_port<PassingLine>(ld06); }
-  if (name == "rplidar" && (mode.empty() || mode == "standard" || mode == "dense")) {
-    return make_port<RplidarDialect>(ld06, mode == "dense");
-  }
+  if (name == "rplidar" && mode != "ultra") { return make_port<RplidarDialect>(ld06, mode); }
   if (name == "ydlidar") { return make_port<YdlidarDialect>(ld06); }
   if (name == "scip") { return make_scip_dialect(ld06); }
   refuse_dialect(mode.empty() ? name : name + " " + mode);

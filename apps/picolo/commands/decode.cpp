@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -12,6 +14,7 @@
 #include "decode/imus.hpp"
 #include "decode/lidars.hpp"
 #include "decode/protocols.hpp"
+#include "picolo/devices/candump.hpp"
 #include "picolo/host/error.hpp"
 
 namespace picolo::tool {
@@ -41,6 +44,45 @@ std::string protocol_names() {
   return names + "dbc:FILE";
 }
 
+/// What the file may be instead, empty when nobody knows.
+std::string looks_like(const std::vector<char>& text, bool is_can, const std::string& tried) {
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  for (const SerialDecoder& decoder : serial_decoders()) {
+    if (decoder.name == tried) { continue; }
+    const DecodeResult result = decoder.decode(bytes, {.format = TableFormat::nothing, .mode = {}});
+    if (result.samples > 0 && 2 * std::size_t{result.counters.skipped_bytes} < bytes.size()) {
+      return decoder.name;
+    }
+  }
+  const std::string line{text.begin(), std::find(text.begin(), text.end(), '\n')};
+  return !is_can && devices::parse_candump(line)
+             ? "a candump log: canopen, odrive, vesc or dbc:FILE"
+             : "";
+}
+
+[[noreturn]] void refuse(const Options& options, const std::vector<char>& text) {
+  if (text.empty() && options.file != "-") {
+    throw host::UserError{ExitCode::input, options.file, "is empty",
+                          "record again: nothing has arrived ('picolo doctor' tells why)"};
+  }
+  const bool is_can = options.protocol.rfind(kDbc, 0) == 0 ||
+                      std::any_of(can_decoders().begin(), can_decoders().end(),
+                                  [&](auto& decoder) { return decoder.name == options.protocol; });
+  const std::string other = looks_like(text, is_can, options.protocol);
+  std::string cure = is_can ? "give a log of candump -L or candump from the bus that speaks it"
+                            : "give the raw bytes as they came, at the device's baud rate";
+  if (!other.empty()) { cure = "it looks like " + other; }
+  throw host::UserError{ExitCode::input, options.file,
+                        fmt::format("holds nothing that {} would say", options.protocol), cure};
+}
+
+DecodeResult decode_bytes(const SerialDecoder& decoder, std::istream& input,
+                          const Options& options) {
+  const std::vector<char> text{std::istreambuf_iterator<char>{input}, {}};
+  const std::vector<std::uint8_t> bytes(text.begin(), text.end());
+  return decoder.decode(bytes, options.decode);
+}
+
 DecodeResult decode_stream(const Options& options, std::istream& input) {
   for (const CanDecoder& decoder : can_decoders()) {
     if (decoder.name == options.protocol) { return decoder.decode(input, options.decode); }
@@ -49,13 +91,22 @@ DecodeResult decode_stream(const Options& options, std::istream& input) {
     return decode_dbc(options.protocol.substr(4), input, options.decode);
   }
   for (const SerialDecoder& decoder : serial_decoders()) {
-    if (decoder.name != options.protocol) { continue; }
-    const std::vector<char> text{std::istreambuf_iterator<char>{input}, {}};
-    const std::vector<std::uint8_t> bytes(text.begin(), text.end());
-    return decoder.decode(bytes, options.decode);
+    if (decoder.name == options.protocol) { return decode_bytes(decoder, input, options); }
   }
   throw host::UserError{ExitCode::usage, options.protocol, "no such protocol",
                         "use one of " + protocol_names()};
+}
+
+std::ifstream open_file(const std::string& path) {
+  if (std::filesystem::is_directory(path)) {
+    throw host::UserError{ExitCode::input, path, "is a folder", "name a file in it"};
+  }
+  std::ifstream file{path, std::ios::binary};
+  if (!file) {
+    throw host::UserError{ExitCode::input, path, "cannot be opened",
+                          "check name and permissions, or give - for standard input"};
+  }
+  return file;
 }
 
 ExitCode decode(const Options& options) {
@@ -63,11 +114,7 @@ ExitCode decode(const Options& options) {
   if (options.file == "-") {
     result = decode_stream(options, std::cin);
   } else {
-    std::ifstream file{options.file, std::ios::binary};
-    if (!file) {
-      throw host::UserError{ExitCode::input, options.file, "cannot be opened",
-                            "check name and permissions, or give - for standard input"};
-    }
+    std::ifstream file = open_file(options.file);
     result = decode_stream(options, file);
   }
   const SerialCounters& c = result.counters;
@@ -82,10 +129,8 @@ ExitCode decode(const Options& options) {
                options.file, c.frames, c.bad_checksums, c.implausible, c.skipped_bytes);
   }
   if (result.samples > 0) { return ExitCode::done; }
-  throw host::UserError{ExitCode::input, options.file,
-                        fmt::format("holds nothing that {} would say", options.protocol),
-                        "serial devices: raw bytes as they came; CAN: a log of candump -L or "
-                        "candump; rplidar without descriptors: name the --mode"};
+  std::ifstream again{options.file == "-" ? "/dev/null" : options.file, std::ios::binary};
+  refuse(options, {std::istreambuf_iterator<char>{again}, {}});
 }
 
 }  // namespace
@@ -99,7 +144,9 @@ void add_decode(CLI::App& app, Action& action) {
   command->add_option("file", options->file, "Raw bytes, or a candump log; - is standard input")
       ->required()
       ->type_name("FILE");
-  command->add_flag("--json", options->decode.json, "Print one JSON object a line");
+  command->add_flag_callback(
+      "--json", [options] { options->decode.format = TableFormat::json; },
+      "Print one JSON object a line");
   command
       ->add_option("--mode", options->decode.mode,
                    "rplidar: what the stream is where it shows no descriptor [what fits best]")

@@ -24,8 +24,8 @@ namespace {
 /// All CAN protocols print the same columns, one line a value.
 class CanTable {
  public:
-  explicit CanTable(bool json)
-      : table_({"stamp_s", "id", "node", "message", "signal", "value"}, json) {}
+  explicit CanTable(TableFormat format)
+      : table_({"stamp_s", "id", "node", "message", "signal", "value"}, format) {}
 
   void row(const CanFrame& frame, unsigned node, const std::string& message,
            const std::string& signal, const host::Json& value) {
@@ -46,7 +46,7 @@ ByteView data_of(const CanFrame& frame) {
 
 template <typename Decoder>
 DecodeResult decode_log(std::istream& log, const DecodeOptions& options, Decoder&& decode) {
-  CanTable table{options.json};
+  CanTable table{options.format};
   DecodeResult result;
   for (std::string line; std::getline(log, line);) {
     const std::optional<CanFrame> frame = devices::parse_candump(line);

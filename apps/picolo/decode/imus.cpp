@@ -75,7 +75,7 @@ Scaled scaled(WitMotionType type) {
 
 DecodeResult decode_witmotion(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
   SampleTable table{{"type", "quantity", "raw0", "raw1", "raw2", "raw3", "x", "y", "z", "unit"},
-                    options.json};
+                    options.format};
   WitMotionDecoder decoder;
   for (const std::uint8_t byte : bytes) {
     if (!is_ok(decoder.push(byte))) { continue; }
@@ -97,7 +97,7 @@ DecodeResult decode_witmotion(std::span<const std::uint8_t> bytes, const DecodeO
 DecodeResult decode_bno08x(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
   SampleTable table{{"index", "yaw_deg", "pitch_deg", "roll_deg", "acceleration_x_mg",
                      "acceleration_y_mg", "acceleration_z_mg"},
-                    options.json};
+                    options.format};
   Bno08xRvcProtocol protocol;
   std::array<ImuSample, Bno08xRvcProtocol::kMaxSamplesPerByte> samples{};
   for (const std::uint8_t byte : bytes) {
@@ -117,7 +117,7 @@ DecodeResult decode_xsens(std::span<const std::uint8_t> bytes, const DecodeOptio
        "acceleration_z_mps2", "rate_x_radps", "rate_y_radps", "rate_z_radps", "quaternion_w",
        "quaternion_x", "quaternion_y", "quaternion_z", "roll_deg", "pitch_deg", "yaw_deg",
        "magnetic_x", "magnetic_y", "magnetic_z", "status"},
-      options.json};
+      options.format};
   XsensProtocol protocol{{.active = false}};
   std::array<ImuSample, XsensProtocol::kMaxSamplesPerByte> samples{};
   for (const std::uint8_t byte : bytes) {
@@ -143,7 +143,7 @@ DecodeResult decode_vectornav(std::span<const std::uint8_t> bytes, const DecodeO
                      "magnetic_y_gauss", "magnetic_z_gauss", "acceleration_x_mps2",
                      "acceleration_y_mps2", "acceleration_z_mps2", "rate_x_radps", "rate_y_radps",
                      "rate_z_radps", "temperature_degc", "pressure_kpa"},
-                    options.json};
+                    options.format};
   VectornavProtocol protocol;
   std::array<ImuSample, VectornavProtocol::kMaxSamplesPerByte> samples{};
   for (const std::uint8_t byte : bytes) {

@@ -28,8 +28,23 @@ RplidarMode mode_of(const std::string& name) {
   return RplidarMode::standard;
 }
 
-/// A stream that shows no descriptor is of the mode that makes most of its bytes. Dense capsules
-/// look like express ones: they must be named.
+/// How many neighbours are about as far away as each other: walls are, misread bits are not.
+std::size_t smooth_neighbours(std::span<const std::uint8_t> bytes, RplidarMode mode) {
+  std::array<RplidarNode, kRplidarMaxNodes> nodes{};
+  RplidarCapsules capsules{mode};
+  std::size_t smooth = 0;
+  for (const std::uint8_t byte : bytes) {
+    const std::size_t count = capsules.push(byte, nodes);
+    for (std::size_t i = 1; i < count; ++i) {
+      const auto [near, far] = std::minmax(nodes[i - 1].dist_mm_q2, nodes[i].dist_mm_q2);
+      smooth += near > 0 && far - near < far / 16 ? 1U : 0U;
+    }
+  }
+  return smooth;
+}
+
+/// A stream that shows no descriptor is of the mode that makes most of its bytes. Express and dense
+/// capsules look alike but for what they say.
 RplidarMode likeliest_mode(std::span<const std::uint8_t> bytes) {
   std::array<RplidarNode, kRplidarMaxNodes> nodes{};
   RplidarStandardDecoder standard;
@@ -44,14 +59,17 @@ RplidarMode likeliest_mode(std::span<const std::uint8_t> bytes) {
   const std::size_t in_express = express.counters().frames * express.capsule_size();
   const std::size_t in_ultra = ultra.counters().frames * ultra.capsule_size();
   if (in_ultra > in_standard && in_ultra > in_express) { return RplidarMode::ultra; }
-  return in_express > in_standard ? RplidarMode::express : RplidarMode::standard;
+  if (in_express <= in_standard) { return RplidarMode::standard; }
+  const bool dense =
+      smooth_neighbours(bytes, RplidarMode::dense) > smooth_neighbours(bytes, RplidarMode::express);
+  return dense ? RplidarMode::dense : RplidarMode::express;
 }
 
 }  // namespace
 
 DecodeResult decode_ld06(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
   SampleTable table{{"timestamp_ms", "speed_degps", "angle_deg", "distance_mm", "intensity"},
-                    options.json};
+                    options.format};
   Ld06Decoder decoder;
   for (const std::uint8_t byte : bytes) {
     if (!is_ok(decoder.push(byte))) { continue; }
@@ -73,7 +91,7 @@ DecodeResult decode_ld06(std::span<const std::uint8_t> bytes, const DecodeOption
 }
 
 DecodeResult decode_rplidar(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
-  SampleTable table{{"angle_z_q14", "dist_mm_q2", "quality", "flag"}, options.json};
+  SampleTable table{{"angle_z_q14", "dist_mm_q2", "quality", "flag"}, options.format};
   const RplidarConfig config{
       .mode = options.mode.empty() ? likeliest_mode(bytes) : mode_of(options.mode),
       .active = false};
@@ -93,7 +111,7 @@ DecodeResult decode_rplidar(std::span<const std::uint8_t> bytes, const DecodeOpt
 }
 
 DecodeResult decode_scip(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
-  SampleTable table{{"time_ms", "step", "angle_deg", "distance_mm"}, options.json};
+  SampleTable table{{"time_ms", "step", "angle_deg", "distance_mm"}, options.format};
   ScipProtocol protocol{{.active = false}};
   std::array<RangeReading, 64> readings{};
   for (const std::uint8_t byte : bytes) {
@@ -113,7 +131,7 @@ DecodeResult decode_scip(std::span<const std::uint8_t> bytes, const DecodeOption
 
 DecodeResult decode_ydlidar(std::span<const std::uint8_t> bytes, const DecodeOptions& options) {
   SampleTable table{{"angle_deg", "distance_mm", "intensity", "flag", "start_packet"},
-                    options.json};
+                    options.format};
   YdlidarProtocol protocol{{.optics = YdlidarOptics::aligned, .active = false}};
   std::vector<RangeReading> readings(YdlidarProtocol::kMaxSamplesPerByte);
   for (const std::uint8_t byte : bytes) {

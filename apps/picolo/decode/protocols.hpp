@@ -11,12 +11,13 @@
 #include <string>
 #include <vector>
 
+#include "decode/table.hpp"
 #include "picolo/drivers/common/serial_counters.hpp"
 
 namespace picolo::tool {
 
 struct DecodeOptions {
-  bool json = false;
+  TableFormat format = TableFormat::csv;
   std::string mode;  ///< rplidar: standard, express, ultra, dense
 };
 

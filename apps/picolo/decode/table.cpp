@@ -14,9 +14,9 @@ std::string field(const host::Json& value) {
 
 }  // namespace
 
-SampleTable::SampleTable(std::vector<std::string> columns, bool json)
-    : columns_(std::move(columns)), json_(json) {
-  if (json_) { return; }
+SampleTable::SampleTable(std::vector<std::string> columns, TableFormat format)
+    : columns_(std::move(columns)), format_(format) {
+  if (format_ != TableFormat::csv) { return; }
   std::string line;
   for (const std::string& column : columns_) { line += (line.empty() ? "" : ",") + column; }
   std::puts(line.c_str());
@@ -24,7 +24,8 @@ SampleTable::SampleTable(std::vector<std::string> columns, bool json)
 
 void SampleTable::row(const std::vector<host::Json>& values) {
   ++rows_;
-  if (json_) {
+  if (format_ == TableFormat::nothing) { return; }
+  if (format_ == TableFormat::json) {
     host::Json line = host::Json::object();
     for (std::size_t i = 0; i < columns_.size(); ++i) { line[columns_[i]] = values.at(i); }
     std::puts(line.dump().c_str());

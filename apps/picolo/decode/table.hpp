@@ -13,16 +13,18 @@
 
 namespace picolo::tool {
 
+enum class TableFormat { csv, json, nothing };
+
 class SampleTable {
  public:
-  SampleTable(std::vector<std::string> columns, bool json);
+  SampleTable(std::vector<std::string> columns, TableFormat format);
   /// One value a column; null = not there (an empty field).
   void row(const std::vector<host::Json>& values);
   [[nodiscard]] std::size_t rows() const { return rows_; }
 
  private:
   std::vector<std::string> columns_;
-  bool json_;
+  TableFormat format_;
   std::size_t rows_ = 0;
 };
 

@@ -144,6 +144,23 @@ TEST(Scip, GivenADamagedLineThenOnlyItsValuesAreLostAndNoneMoves) {
   }
 }
 
+TEST(Scip, GivenTheSumOfItsLastLineThenTheScanIsHandedOut) {
+  const Bytes scan = scan_bytes(0, 1080, 100, 500);
+  // The line feed behind the sum; the empty line that follows tells nothing.
+  const auto readings = read_all({Bytes{scan.begin(), scan.end() - 1}});
+  ASSERT_EQ(readings.size(), 1081U);
+  for (std::size_t i = 0; i < readings.size(); ++i) {
+    EXPECT_EQ(readings[i].starts_sweep, i == 0);
+    EXPECT_EQ(readings[i].ends_sweep, i + 1 == readings.size());
+  }
+  EXPECT_TRUE(read_all({Bytes{scan.begin(), scan.end() - 2}}).empty());
+  FakeSerialPort port{250'000};
+  port.arrives(Timestamp{1s}, join({scan, scan}));
+  Scip lidar{port, {.active = false}};
+  EXPECT_EQ(read_all(lidar).size(), 2U * 1081U);
+  EXPECT_EQ(lidar.counters().skipped_bytes, 0U);
+}
+
 TEST(Scip, GivenAPieceOfAScanIsMissingThenTheScanIsRefusedAndTheNextIsRead) {
   const Bytes scan = scan_bytes(0, 1080, 100, 500);
   for (const std::size_t missing : {64U, 66U, 132U, 500U}) {

@@ -182,6 +182,7 @@ SweepTimes sweep_times(const std::string& name, const std::string& mode, bool la
 TEST(SimulatedDevices, GivenLateReadingThenSweepsNeverOverlapAndHaveNoMoreJitterThanTheirStamps) {
   for (const auto& [name, mode] : {std::pair{"ld06", ""},
                                    {"rplidar", ""},
+                                   {"rplidar", "express"},
                                    {"rplidar", "dense"},
                                    {"ydlidar", ""},
                                    {"scip", ""}}) {

@@ -9,6 +9,9 @@
 #include <sstream>
 #include <string>
 
+#include "picolo/core/bytes.hpp"
+#include "picolo/core/crc.hpp"
+#include "support/bytes.hpp"
 #include "support/data.hpp"
 #include "support/vectors.hpp"
 #include "tool_run.hpp"
@@ -86,6 +89,37 @@ TEST(ToolDecode, GivenCanLogsThenValuesComeWithTheirNamesAndMappingsAreLearnt) {
   EXPECT_GT(csv(dbc.out).size(), 10'000U);
 }
 
+/// A wall seen by capsules of 84 bytes that no descriptor introduces.
+Bytes wall(bool dense) {
+  Bytes stream;
+  for (std::uint32_t i = 0; i < 12; ++i) {
+    Bytes capsule(84);
+    store_u16_le(capsule, 2, static_cast<std::uint16_t>(i * 30 * 64 % (360 * 64)));
+    for (std::size_t k = 0; k < (dense ? 40 : 32); ++k) {
+      const std::size_t mm = 1500 + 40 * i + k;
+      const std::size_t at = dense ? 4 + 2 * k : 4 + 5 * (k / 2) + 2 * (k % 2);
+      store_u16_le(capsule, at, static_cast<std::uint16_t>(dense ? mm : 4 * mm));
+    }
+    const std::uint8_t sum = xor8(ByteView{capsule}.subspan(2));
+    capsule[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
+    capsule[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+    stream = join({stream, capsule});
+  }
+  return stream;
+}
+
+TEST(ToolDecode, GivenCapsulesWithoutADescriptorThenTheirModeIsFoundFromWhatTheySay) {
+  const TemporaryFolder folder;
+  for (const bool dense : {true, false}) {
+    const Bytes stream = wall(dense);
+    folder.write("stream.bin", {stream.begin(), stream.end()});
+    const ToolRun run = run_tool(folder, {"decode", "rplidar", "stream.bin"});
+    const auto rows = csv(run.out);
+    ASSERT_EQ(rows.size(), 1U + 11U * (dense ? 40U : 32U)) << dense;
+    EXPECT_EQ(rows[2][1], "6004") << dense;
+  }
+}
+
 TEST(ToolDecode, GivenWhatItCannotDecodeThenItSaysWhyAndHow) {
   const TemporaryFolder folder;
   folder.write("noise.bin", "not a lidar");
@@ -95,6 +129,17 @@ TEST(ToolDecode, GivenWhatItCannotDecodeThenItSaysWhyAndHow) {
   EXPECT_EQ(run_tool(folder, {"decode", "ld99", "noise.bin"}).exit_code, 2);
   EXPECT_EQ(run_tool(folder, {"decode", "dbc:none.dbc", "noise.bin"}).exit_code, 3);
   EXPECT_EQ(run_tool(folder, {"decode", "ld06", "missing.bin"}).exit_code, 3);
+  EXPECT_EQ(run_tool(folder, {"decode", "ld06", "."}).exit_code, 3);
+  folder.write("empty.bin", "");
+  EXPECT_NE(run_tool(folder, {"decode", "vesc", "empty.bin"}).err.find("empty.bin: is empty"),
+            std::string::npos);
+  folder.write("bus.log", "(1.5) can0 00001B01#0000006400F00000\n");
+  const ToolRun bus = run_tool(folder, {"decode", "scip", "bus.log"});
+  EXPECT_NE(bus.err.find("it looks like a candump log"), std::string::npos) << bus.err;
+  const Bytes stream = wall(true);
+  folder.write("stream.bin", {stream.begin(), stream.end()});
+  const ToolRun other = run_tool(folder, {"decode", "witmotion", "stream.bin"});
+  EXPECT_NE(other.err.find("it looks like rplidar"), std::string::npos) << other.err;
 }
 
 }  // namespace

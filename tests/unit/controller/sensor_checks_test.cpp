@@ -118,6 +118,17 @@ TEST_F(SweepCheckTest, GivenTheSameRevolutionAgainThenItIsKnown) {
   EXPECT_FALSE(check.repeats());
 }
 
+TEST_F(SweepCheckTest, GivenRevolutionsThatTellTheirEndThenRepetitionIsKnownThere) {
+  sweep(0.001F);
+  for (int turn = 0; turn < 2; ++turn) {
+    sweep(0.0F);
+    check.add({.stamp = kStart, .range_m = 2.0F, .ends_sweep = true});
+    EXPECT_EQ(check.repeats(), turn == 1);
+  }
+  check.add({.stamp = kStart, .range_m = 1.0F, .starts_sweep = true});
+  EXPECT_TRUE(check.repeats()) << "until the next one is complete";
+}
+
 TEST_F(SweepCheckTest, GivenRevolutionsWithoutReturnsThenThatIsSomethingElse) {
   sweep(0.0F, 5);
   sweep(0.0F, 5);

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <string>
 
 #include "picolo/core/random.hpp"
 
@@ -52,6 +53,40 @@ TEST(DeviceClock, GivenLateHostStampsThenTheResultLiesBetweenMeasurementAndHost)
     }
     EXPECT_LT(worst, 3ms) << drift_ppm;  // against 16 ms of the host
     EXPECT_EQ(clock.restarts(), 0U);
+  }
+}
+
+TEST(DeviceClock, GivenAnyJitterThenEveryDevicesStampsHaveNoMoreOfItOverTheWrap) {
+  struct Counter {
+    const char* device;
+    Duration wrap;
+    Duration resolution;
+  };
+  for (const Counter& counter : {Counter{"ld06", 30s, 1ms}, Counter{"scip", 16'777'216ms, 1ms},
+                                 Counter{"xsens", (1LL << 32U) * 100us, 100us}}) {
+    for (const std::uint32_t jitter_us : {1U, 100U, 900U, 5000U, 30'000U}) {
+      for (const int drift_ppm : {-100, 100}) {
+        SCOPED_TRACE(std::string{counter.device} + " " + std::to_string(jitter_us) + " us");
+        Random random{jitter_us};
+        DeviceClock clock{{.wrap = counter.wrap, .resolution = counter.resolution}};
+        Duration shortest = Duration::max();
+        Duration longest = Duration::min();
+        Timestamp last{};
+        for (int k = 0; k < 4000; ++k) {
+          const Duration since = k * 2500us;
+          const Timestamp host = Timestamp{5s} + since + Duration{random.below(jitter_us)};
+          const Duration own = counter.wrap - 5s + since + since * drift_ppm / 1'000'000;
+          const Duration shown = own / counter.resolution * counter.resolution % counter.wrap;
+          const Timestamp mapped = clock.map(std::max(host, last), shown);
+          last = std::max(host, last);  // bytes come in order
+          shortest = std::min(shortest, mapped - (Timestamp{5s} + since));
+          longest = std::max(longest, mapped - (Timestamp{5s} + since));
+        }
+        EXPECT_GE(shortest, Duration{0});
+        EXPECT_LT(longest, Duration{jitter_us});
+        EXPECT_EQ(clock.restarts(), 0U);
+      }
+    }
   }
 }
 

@@ -22,13 +22,14 @@ class Spinning {
  public:
   explicit Spinning(const SweepAssemblerConfig& config = {}) : assembler(config) {}
 
-  void reading(bool starts_sweep) {
+  void reading(bool starts_sweep, bool ends_sweep = false) {
     ++number;
     now += kSpacing;
     assembler.add({.stamp = now,
                    .range_m = static_cast<float>(number),
                    .bearing_rad = 0.25F,
-                   .starts_sweep = starts_sweep});
+                   .starts_sweep = starts_sweep,
+                   .ends_sweep = ends_sweep});
   }
 
   void revolution(int beams) {
@@ -39,6 +40,26 @@ class Spinning {
   Timestamp now{10s};
   int number = 0;
 };
+
+TEST(SweepAssembler, ARevolutionThatTellsItsEndIsCompleteThereHoweverLateTheNextOneComes) {
+  Spinning<20> lidar;
+  for (std::uint32_t turn = 0; turn < 3; ++turn) {
+    lidar.now += 500ms;
+    for (int i = 0; i < 22; ++i) { lidar.reading(i == 0, i == 21); }  // two find no room
+    ASSERT_TRUE(lidar.assembler.ready());
+    const Sweep sweep = lidar.assembler.take();
+    EXPECT_EQ(sweep.sequence, turn);
+    EXPECT_EQ(sweep.returns.size(), 20U);
+    EXPECT_EQ(sweep.last_stamp, lidar.now - 2ms);
+  }
+  EXPECT_EQ(lidar.assembler.counters().partial, 0U);
+  EXPECT_EQ(lidar.assembler.counters().overflowed, 6U);
+  lidar.reading(false);
+  EXPECT_EQ(lidar.assembler.counters().partial, 1U) << "of no revolution";
+  lidar.revolution(20);
+  lidar.reading(true);
+  EXPECT_TRUE(lidar.assembler.ready());
+}
 
 TEST(SweepAssembler, ARevolutionIsCompleteWhenTheNextOneStarts) {
   Spinning lidar;

@@ -87,6 +87,8 @@ class SweepCheck {
   [[nodiscard]] bool repeats() const { return repeats_; }
 
  private:
+  void compare();
+
   static constexpr std::uint32_t kNothing = 2'166'136'261U;  // FNV-1a
   std::uint32_t hash_ = kNothing;
   std::uint32_t last_hash_ = kNothing;

@@ -50,7 +50,8 @@ class SweepAssemblerCore {
   SweepAssemblerCore(const SweepAssemblerConfig& config, std::span<RangeReturn> first,
                      std::span<RangeReturn> second);
 
-  /// Takes the next reading. `starts_sweep` completes the revolution before it. A revolution whose
+  /// Takes the next reading. `ends_sweep` completes its revolution, and so does `starts_sweep` the
+  /// one before it. A revolution whose
   /// beginning was not seen is dropped, and so is a reading older than its predecessor; but one
   /// that starts a sweep starts it whatever its stamp.
   void add(const RangeReading& reading);
@@ -63,6 +64,7 @@ class SweepAssemblerCore {
 
  private:
   void begin(const RangeReading& reading);
+  void store(const RangeReading& reading);
   void complete();
   void drop();
 

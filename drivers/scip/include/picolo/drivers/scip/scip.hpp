@@ -25,7 +25,9 @@ struct ScipConfig {
   /// nothing = the time that the scan itself takes.
   Duration latency{-1};
   bool use_device_clock = true;
-  DeviceClockConfig clock{.wrap = Duration{std::int64_t{16'777'216} * 1000}, .resolution = 1ms};
+  /// Scans are rare: the fastest delivery is looked for among ten and more of them.
+  DeviceClockConfig clock{
+      .wrap = Duration{std::int64_t{16'777'216} * 1000}, .resolution = 1ms, .window = 1s};
   bool active = true;  ///< switches the laser on and asks for scans; false: only listens
   Duration answer_timeout = 500ms;
   Duration silence_timeout = 1500ms;

@@ -29,6 +29,8 @@ class ScipScan {
   bool line(std::size_t offset, ByteView text);
   /// Whether such a line would be whole: its line feed may be missing.
   [[nodiscard]] bool is_whole(std::size_t offset, ByteView text) const;
+  /// Nothing of it can follow.
+  [[nodiscard]] bool has_last_line() const { return next_line_ == lines(); }
   /// The empty line that closes a scan may stand here.
   [[nodiscard]] bool may_end_at(std::size_t offset) const;
   /// After the last line. True: the values are where they belong. `offset`: of the line that was

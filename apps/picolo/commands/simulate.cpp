@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <memory>
@@ -45,7 +46,7 @@ struct Options {
 
 /// A device that is pulled out for a while.
 struct Absence {
-  bool lidar = false;
+  std::string device;
   Duration from{};
   Duration to{};
 };
@@ -60,13 +61,14 @@ Absence parse_absence(const std::string& text) {
     return parsed.ec == std::errc{} && parsed.ptr == word.data() + word.size() && value >= 0.0;
   };
   const std::string device = text.substr(0, first);
-  if (second == std::string::npos || (device != "lidar" && device != "imu") ||
+  if (second == std::string::npos || (device != "lidar" && device != "imu" && device != "can") ||
       !number(std::string_view{text}.substr(first + 1, second - first - 1), from_s) ||
       !number(std::string_view{text}.substr(second + 1), length_s)) {
     throw host::UserError{ExitCode::usage, "--unplug " + text, "is no DEVICE:FROM:SECONDS",
-                          "for example lidar:10:3 pulls the lidar out for 3 s, 10 s after start"};
+                          "for example lidar:10:3 pulls the lidar out for 3 s, 10 s after start; "
+                          "also imu and can"};
   }
-  return {device == "lidar", from_seconds(from_s), from_seconds(from_s + length_s)};
+  return {device, from_seconds(from_s), from_seconds(from_s + length_s)};
 }
 
 sim::SceneName scene_of(const std::string& name) {
@@ -80,9 +82,11 @@ sim::SceneName scene_of(const std::string& name) {
 /// of this machine.
 class Bridge {
  public:
-  Bridge(const Options& options, const VehicleSettings& settings, CanLine& can,
-         sim::Simulation& simulation)
+  Bridge(const Options& options, const VehicleSettings& settings, std::optional<CanLine>& can,
+         Clock& clock, sim::Simulation& simulation)
       : can_(can),
+        can_name_(options.can),
+        clock_(clock),
         wheels_(devices::make_wheel_dialect(settings.wheels_name, simulation.can(),
                                             simulation.clock(), wheel_dialect(settings))),
         lidar_port_(devices::make_lidar_dialect(settings.lidar_name, simulation.lidar_port(),
@@ -97,9 +101,11 @@ class Bridge {
 
   /// What the controller has sent since the last step.
   void listen(Timestamp now) {
-    for (Result<CanFrame> frame = can_.receive(); frame; frame = can_.receive()) {
-      if (log_) { log_->can(*frame); }
-      static_cast<void>(wheels_->transmit(*frame));
+    if (can_) {
+      for (Result<CanFrame> frame = can_->receive(); frame; frame = can_->receive()) {
+        if (log_) { log_->can(*frame); }
+        static_cast<void>(wheels_->transmit(*frame));
+      }
     }
     take(lidar_, *lidar_port_);
     take(imu_, *imu_port_);
@@ -107,16 +113,22 @@ class Bridge {
   }
   void speak() {
     for (auto frame = wheels_->receive(); frame; frame = wheels_->receive()) {
-      if (is_ok(can_.transmit(*frame)) && log_) { log_->can(*frame); }
+      if (can_ && is_ok(can_->transmit(*frame)) && log_) { log_->can(*frame); }
     }
     send(*lidar_port_, lidar_, "lidar");
     send(*imu_port_, imu_, "imu");
   }
-  void plug(bool lidar, bool in) {
-    std::optional<PtyLine>& line = lidar ? lidar_ : imu_;
-    if (!line || line->plugged() == in) { return; }
-    fmt::print(stderr, "picolo: {} {}\n", lidar ? "lidar" : "imu", in ? "plugged in" : "unplugged");
-    in ? line->plug() : line->unplug();
+  void plug(const std::string& device, bool in) {
+    std::optional<PtyLine>& line = device == "lidar" ? lidar_ : imu_;
+    if (device == "can" ? can_.has_value() == in : !line || line->plugged() == in) { return; }
+    fmt::print(stderr, "picolo: {} {}\n", device, in ? "plugged in" : "unplugged");
+    if (device != "can") {
+      in ? line->plug() : line->unplug();
+    } else if (in) {
+      static_cast<void>(can_.emplace(clock_, can_name_, CanLine::Role::first).open());
+    } else {
+      can_.reset();
+    }
   }
 
  private:
@@ -139,7 +151,9 @@ class Bridge {
     }
   }
 
-  CanLine& can_;
+  std::optional<CanLine>& can_;  ///< none: the vehicle has left the bus
+  std::string can_name_;
+  Clock& clock_;
   devices::CanBusPointer wheels_;
   devices::SerialPortPointer lidar_port_;
   devices::SerialPortPointer imu_port_;
@@ -150,9 +164,10 @@ class Bridge {
 };
 
 std::unique_ptr<Bridge> make_bridge(const Options& options, const VehicleSettings& settings,
-                                    CanLine& can, sim::Simulation& simulation) {
+                                    std::optional<CanLine>& can, Clock& clock,
+                                    sim::Simulation& simulation) {
   try {
-    return std::make_unique<Bridge>(options, settings, can, simulation);
+    return std::make_unique<Bridge>(options, settings, can, clock, simulation);
   } catch (const std::invalid_argument& error) {
     throw host::UserError{host::ExitCode::usage, options.config, error.what(),
                           "name other drivers in the configuration"};
@@ -172,25 +187,28 @@ ExitCode simulate(const Options& options) {
   const VehicleSettings settings = read_vehicle(options.config);
   const StopSignal stop;
   LinuxClock clock;
-  CanLine can{clock, options.can, CanLine::Role::first};
-  static_cast<void>(can.open());
+  std::optional<CanLine> can;
+  static_cast<void>(can.emplace(clock, options.can, CanLine::Role::first).open());
   sim::SimulationConfig config{.seed = static_cast<std::uint64_t>(options.seed)};
   config.scene = sim::make_scene(scene_of(options.scene));
   config.lidar.counter_clockwise = devices::turns_counter_clockwise(settings.lidar_name);
   config.drive.stand_at_start = from_seconds(options.stand);
-  if (options.wait) { wait_for_controller(can, clock, stop); }
+  if (options.wait) { wait_for_controller(*can, clock, stop); }
   const Timestamp start = clock.now();
   config.start = start;
   const auto simulation = std::make_unique<sim::Simulation>(config);
-  const auto bridge = make_bridge(options, settings, can, *simulation);
+  const auto bridge = make_bridge(options, settings, can, clock, *simulation);
   host::Trajectory truth;
   Timestamp next_truth = start;
   const auto end = options.seconds > 0.0 ? start + from_seconds(options.seconds) : Timestamp::max();
   Timestamp next = start;
   for (Timestamp now = start; !stop.came() && now < end; now = clock.now()) {
-    for (const Absence& absence : absences) {
+    for (const char* device : {"lidar", "imu", "can"}) {
       const Duration elapsed = now - start;
-      bridge->plug(absence.lidar, elapsed < absence.from || elapsed >= absence.to);
+      bridge->plug(device, std::none_of(absences.begin(), absences.end(), [&](auto& absence) {
+                     return absence.device == device && elapsed >= absence.from &&
+                            elapsed < absence.to;
+                   }));
     }
     bridge->listen(now);
     simulation->advance_to(now);
@@ -240,7 +258,7 @@ void add_simulate(CLI::App& app, Action& action) {
       ->check(CLI::Range(0.0, 600.0))
       ->type_name("S");
   command->add_flag("--wait", options->wait, "Begin with the controller's first frame");
-  command->add_option("--unplug", options->unplug, "Pull a device out for a while")
+  command->add_option("--unplug", options->unplug, "Pull lidar, imu or can out for a while")
       ->type_name("DEVICE:FROM:SECONDS");
   command->add_option("--truth", options->truth, "Write the true poses at the end (TUM)")
       ->type_name("FILE");

@@ -35,6 +35,7 @@ class Process {
   Process(const Process&) = delete;
   Process& operator=(const Process&) = delete;
 
+  [[nodiscard]] pid_t pid() const { return pid_; }
   /// Exit code; -1 when a signal ended it.
   int stop(int signal) {
     if (pid_ <= 0) { return -1; }

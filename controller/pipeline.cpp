@@ -19,7 +19,7 @@ HealthReason why_rejected(MatchOutcome outcome) {
 }
 
 Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
-                   LocaliserCore& localiser)
+                   LocaliserCore& localiser, DriveModel* drive)
     : undistort_(config.undistort),
       max_bridge_(config.max_bridge),
       coast_(config.coast),
@@ -27,13 +27,14 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
       lidar_age_(config.lidar_age),
       localiser_(localiser),
       gyro_gain_(config.dead_reckoning.gyro_sign * config.dead_reckoning.gyro_scale),
-      gate_(config.plausibility, config.drive),
+      two_wheels_(config.drive),
+      drive_(drive != nullptr ? *drive : two_wheels_),
+      gate_(config.plausibility, drive_.encoder_scale()),
       plausibility_(config.plausibility),
       turn_check_(config.plausibility),
-      wheel_check_(config.plausibility, config.drive),
+      wheel_check_(config.plausibility, drive_.encoder_scale()),
       gyro_check_(plausibility_),
       gravity_check_(plausibility_),
-      drive_(config.drive),
       dead_reckoning_(config.dead_reckoning),
       poses_(pose_storage_),
       sweeps_(config.sweeps, storage.first_sweep, storage.second_sweep),
@@ -47,10 +48,12 @@ void Pipeline::doubt(SensorIndex sensor, Timestamp stamp) {
   doubted_until_[static_cast<std::size_t>(sensor)] = stamp + plausibility_.doubt_hold;
 }
 
-void Pipeline::doubt_wheels(SensorDoubts wheels, Timestamp stamp) {
-  for (const SensorIndex wheel : {SensorIndex::left_wheel, SensorIndex::right_wheel}) {
-    if ((wheels & doubt_of(wheel)) != 0) { doubt(wheel, stamp); }
-  }
+/// Encoders of even index are on the left.
+void Pipeline::doubt_wheels(std::uint8_t encoders, Timestamp stamp) {
+  constexpr unsigned kLeft = 0b0101;
+  constexpr unsigned kRight = 0b1010;
+  if ((encoders & kLeft) != 0) { doubt(SensorIndex::left_wheel, stamp); }
+  if ((encoders & kRight) != 0) { doubt(SensorIndex::right_wheel, stamp); }
 }
 
 SensorDoubts Pipeline::doubts() const {

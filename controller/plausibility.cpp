@@ -4,7 +4,6 @@
 #include "picolo/controller/plausibility.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 #include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
@@ -22,14 +21,12 @@ constexpr Duration kLongestStep = 50ms;   // between samples; beyond it a stream
 
 }  // namespace
 
-WheelGate::WheelGate(const PlausibilityConfig& config, const DifferentialDriveConfig& drive)
+WheelGate::WheelGate(const PlausibilityConfig& config, const EncoderScale& encoders)
     : max_in_a_row_(config.max_left_out) {
-  const std::array<double, 2> radii_m{drive.left_radius_m, drive.right_radius_m};
-  for (std::size_t i = 0; i < radii_m.size(); ++i) {
-    const double turns_per_s =
-        static_cast<double>(config.max_wheel_speed_mps) / (2.0 * std::numbers::pi * radii_m[i]);
+  for (std::size_t i = 0; i < max_counts_per_s_.size(); ++i) {
     max_counts_per_s_[i] =
-        round_to_i64(turns_per_s * drive.counts_per_revolution, 1, kMaxCountsPerSecond);
+        round_to_i64(static_cast<double>(config.max_wheel_speed_mps) * encoders.counts_per_m[i], 0,
+                     kMaxCountsPerSecond);
   }
 }
 
@@ -37,6 +34,7 @@ std::uint8_t WheelGate::unbelievable(const WheelTicks& ticks) const {
   unsigned wheels = 0;
   const std::int64_t elapsed_us = std::min((ticks.stamp - last_.stamp).count(), kMaxElapsed_us);
   for (std::size_t i = 0; i < max_counts_per_s_.size(); ++i) {
+    if (max_counts_per_s_[i] == 0) { continue; }
     const std::int64_t counts = ticks.ticks[i] - last_.ticks[i];
     const std::int64_t reach = max_counts_per_s_[i] * elapsed_us / kMicrosPerSecond + kSlackCounts;
     if (counts > reach || counts < -reach) { wheels |= 1U << i; }

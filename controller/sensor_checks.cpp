@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <bit>
-#include <numbers>
 
 #include "picolo/core/arithmetic.hpp"
 #include "picolo/core/number_model.hpp"
@@ -27,39 +26,34 @@ float dot(const Axes& a, const Axes& b) {
 
 }  // namespace
 
-WheelStepCheck::WheelStepCheck(const PlausibilityConfig& config,
-                               const DifferentialDriveConfig& drive)
+WheelStepCheck::WheelStepCheck(const PlausibilityConfig& config, const EncoderScale& encoders)
     : max_acceleration_mps2_(config.max_wheel_acceleration_mps2),
       stamp_jitter_s_(to_seconds(config.max_stamp_jitter)) {
-  const std::array<double, 2> radii_m{drive.left_radius_m, drive.right_radius_m};
-  for (std::size_t i = 0; i < radii_m.size(); ++i) {
-    counts_per_m_[i] =
-        static_cast<float>(drive.counts_per_revolution / (2.0 * std::numbers::pi * radii_m[i]));
+  for (std::size_t i = 0; i < counts_per_m_.size(); ++i) {
+    counts_per_m_[i] = static_cast<float>(encoders.counts_per_m[i]);
   }
 }
 
-SensorDoubts WheelStepCheck::add(const WheelTicks& ticks) {
+std::uint8_t WheelStepCheck::add(const WheelTicks& ticks) {
   const Duration step = ticks.stamp - last_.stamp;
   if (has_last_ && step <= Duration{0}) { return 0; }
   const bool comparable = has_last_ && !ticks.restarted && step <= kLongestStep;
   const float step_s = to_seconds(step);
-  SensorDoubts doubts = 0;
+  unsigned doubts = 0;
   for (std::size_t i = 0; comparable && i < counts_per_m_.size(); ++i) {
     const auto counts = static_cast<float>(ticks.ticks[i] - last_.ticks[i]);
     const float before = rate_counts_per_s_[i];
     rate_counts_per_s_[i] = counts / step_s;
-    if (!has_rate_) { continue; }
+    if (!has_rate_ || counts_per_m_[i] == 0.0F) { continue; }
     const float faster = std::max(magnitude(before), magnitude(rate_counts_per_s_[i]));
     const float limit = max_acceleration_mps2_ * counts_per_m_[i] * step_s * step_s + kSlackCounts +
                         2.0F * stamp_jitter_s_ * faster;
-    if (magnitude(counts - before * step_s) > limit) {
-      doubts = static_cast<SensorDoubts>(doubts | (1U << i));
-    }
+    if (magnitude(counts - before * step_s) > limit) { doubts |= 1U << i; }
   }
   has_rate_ = comparable;
   has_last_ = true;
   last_ = ticks;
-  return doubts;
+  return static_cast<std::uint8_t>(doubts);
 }
 
 Duration AxesStream::add(Timestamp stamp, const Axes& axes, bool moving) {

@@ -65,4 +65,8 @@ WheelJacobian AckermannDrive::jacobian() const {
   return jacobian;
 }
 
+EncoderScale AckermannDrive::encoder_scale() const {
+  return {{config_.counts_per_revolution / (2.0 * std::numbers::pi * config_.wheel_radius_m)}};
+}
+
 }  // namespace picolo::inline v0

@@ -63,4 +63,13 @@ WheelJacobian MecanumDrive::jacobian() const {
   return jacobian;
 }
 
+EncoderScale MecanumDrive::encoder_scale() const {
+  EncoderScale scale;
+  for (std::size_t k = 0; k < kMaxWheels; ++k) {
+    scale.counts_per_m[k] =
+        config_.counts_per_revolution / (2.0 * std::numbers::pi * config_.radius_m[k]);
+  }
+  return scale;
+}
+
 }  // namespace picolo::inline v0

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "picolo/controller/plausibility.hpp"
+#include "picolo/odometry/differential_drive.hpp"
 
 #include <gtest/gtest.h>
 
@@ -20,7 +21,7 @@ WheelTicks ticks(Duration since_start, std::int64_t left, std::int64_t right) {
 
 /// 0.1 m wheels with 4096 counts: 3 m/s are 19557 counts a second, 195 and some in 10 ms.
 struct WheelGateTest : ::testing::Test {
-  WheelGate gate{kConfig, DifferentialDriveConfig{}};
+  WheelGate gate{kConfig, DifferentialDrive{}.encoder_scale()};
   bool pass(WheelTicks sample) { return gate.pass(sample); }
 };
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: Apache-2.0
 
 #include "picolo/controller/sensor_checks.hpp"
+#include "picolo/odometry/differential_drive.hpp"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ constexpr SensorDoubts kRight = doubt_of(SensorIndex::right_wheel);
 
 /// Wheels of 0.1 m with 4096 counts: 65 counts in 10 ms are 1 m/s.
 struct WheelStepCheckTest : ::testing::Test {
-  WheelStepCheck check{kConfig, DifferentialDriveConfig{}};
+  WheelStepCheck check{kConfig, DifferentialDrive{}.encoder_scale()};
   WheelTicks ticks{.stamp = kStart};
   SensorDoubts drive(int left, int right, Duration step = 10ms) {
     ticks.stamp += step;

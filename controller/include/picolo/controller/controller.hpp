@@ -49,7 +49,8 @@ class Controller {
   static constexpr std::size_t kSerialSlices = 4;  ///< of the byte bound: keeps the buffers small
 
   /// Everything referred to outlives the controller. `events` may lie in memory that survives a
-  /// reset. `services`: what commands may ask for beyond the controller itself.
+  /// reset. `services`: other wheels than configured, what commands may ask for beyond the
+  /// controller itself.
   Controller(const Board& board, Wheels& wheels, Lidar& lidar, Imu& imu, EventRing& events,
              const ControllerConfig& config, const ControllerServices& services = {})
       : config_(config.valid() ? config : ControllerConfig{}),
@@ -60,11 +61,12 @@ class Controller {
         imu_(imu),
         events_(events),
         localiser_(config_.localiser),
-        pipeline_(config_, {first_sweep_, second_sweep_, x_m_, y_m_}, localiser_.core()),
+        pipeline_(config_, {first_sweep_, second_sweep_, x_m_, y_m_}, localiser_.core(),
+                  services.drive),
         composer_(config_),
         supervisor_(config_.health, config_.trust, events),
         reporter_(config_.frames_out, board.can),
-        desk_(config_.frames_out, services, pipeline_, composer_, supervisor_, reporter_),
+        desk_(config_.frames_out, usable(services), pipeline_, composer_, supervisor_, reporter_),
         executive_(config_.cycle, controller_tasks(config_.work, config_.budgets, config_.policies),
                    board.clock, board.cycle_counter, board.watchdog) {}
   Controller(const Controller&) = delete;
@@ -139,6 +141,12 @@ class Controller {
   }
 
  private:
+  /// The calibration finds the sizes of two wheels on an axle, and no others.
+  static ControllerServices usable(ControllerServices services) {
+    if (services.drive != nullptr) { services.calibration = nullptr; }
+    return services;
+  }
+
   void drain_can(std::uint32_t max_frames) {
     Status status = Status::ok;
     for (std::uint32_t i = 0; i < max_frames; ++i) {
@@ -150,11 +158,16 @@ class Controller {
         if (!desk_.consume(*received, frame_.start)) { ++counters_.foreign_frames; }
         continue;
       }
-      const Result<WheelTicks> ticks = wheels_.take();
-      if (ticks) { keep(*ticks); }
+      take_ticks();
     }
     supervisor_.line(DeviceIndex::wheels, status, frame_.start);
     (void)wheels_.service(frame_.start);  // what the bus refused is tried again
+    take_ticks();                         // of encoders that are not on the bus
+  }
+
+  void take_ticks() {
+    const Result<WheelTicks> ticks = wheels_.take();
+    if (ticks) { keep(*ticks); }
   }
 
   void keep(const WheelTicks& ticks) {

@@ -28,9 +28,10 @@ struct Board {
   Watchdog& watchdog;
 };
 
-/// Wheel encoders on the shared CAN bus. The controller drains the bus and offers every frame.
-/// `consume`: true when the frame was meant for it. `take`: the newest complete sample, once.
-/// `service`: called every cycle after the drain, sends what the protocol asks for.
+/// Wheel encoders, on the shared CAN bus or not. The controller drains the bus and offers every
+/// frame. `consume`: true when the frame was meant for it. `take`: the newest complete sample,
+/// once. `service`: called every cycle after the drain, sends what the protocol asks for, or reads
+/// the counters of encoders that are not on the bus.
 template <typename W>
 concept WheelDevice = requires(W& wheels, const CanFrame& frame, Timestamp now) {
   { wheels.consume(frame) } -> std::same_as<bool>;

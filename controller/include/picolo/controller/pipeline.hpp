@@ -12,6 +12,7 @@
 #include "picolo/controller/controller_config.hpp"
 #include "picolo/controller/sensor_checks.hpp"
 #include "picolo/localisation/pose_estimate.hpp"
+#include "picolo/odometry/drive_model.hpp"
 #include "picolo/undistort/pose_buffer.hpp"
 
 namespace picolo::inline v0 {
@@ -68,11 +69,12 @@ struct MatchVerdict {
 /// only.
 class Pipeline {
  public:
-  /// Everything referred to outlives the pipeline. Precondition: config.valid().
-  Pipeline(const ControllerConfig& config, const PipelineStorage& storage,
-           LocaliserCore& localiser);
-  Pipeline(ControllerConfig&& config, const PipelineStorage& storage,
-           LocaliserCore& localiser) = delete;
+  /// Everything referred to outlives the pipeline. Precondition: config.valid(). `drive`: nullptr
+  /// for two wheels on an axle, as in config.drive.
+  Pipeline(const ControllerConfig& config, const PipelineStorage& storage, LocaliserCore& localiser,
+           DriveModel* drive = nullptr);
+  Pipeline(ControllerConfig&& config, const PipelineStorage& storage, LocaliserCore& localiser,
+           DriveModel* drive = nullptr) = delete;
   Pipeline(const Pipeline&) = delete;
   Pipeline& operator=(const Pipeline&) = delete;
   ~Pipeline() = default;
@@ -141,7 +143,7 @@ class Pipeline {
  private:
   void bridge(Timestamp to);
   void doubt(SensorIndex sensor, Timestamp stamp);
-  void doubt_wheels(SensorDoubts wheels, Timestamp stamp);
+  void doubt_wheels(std::uint8_t encoders, Timestamp stamp);
   void take_sweep();
   void learn_twist();
   /// True when the end of the match is to be told.
@@ -154,6 +156,8 @@ class Pipeline {
   Duration lidar_age_;
   LocaliserCore& localiser_;
   float gyro_gain_;
+  DriveModelOf<DifferentialDrive> two_wheels_;
+  DriveModel& drive_;
   WheelGate gate_;
   const PlausibilityConfig& plausibility_;
   TurnCheck turn_check_;
@@ -161,7 +165,6 @@ class Pipeline {
   GyroCheck gyro_check_;
   GravityCheck gravity_check_;
   SweepCheck sweep_check_;
-  DifferentialDrive drive_;
   DeadReckoning dead_reckoning_;
   std::array<StampedPose, kRememberedPoses> pose_storage_{};
   PoseBufferCore poses_;

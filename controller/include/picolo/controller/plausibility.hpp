@@ -9,7 +9,6 @@
 #include <cstdint>
 
 #include "picolo/core/time.hpp"
-#include "picolo/odometry/differential_drive.hpp"
 #include "picolo/odometry/wheel_odometry.hpp"
 #include "picolo/sensing/imu_sample.hpp"
 #include "picolo/sensing/wheel_ticks.hpp"
@@ -52,20 +51,20 @@ struct PlausibilityConfig {
 /// Cost: O(1). Context: cycle only.
 class WheelGate {
  public:
-  WheelGate(const PlausibilityConfig& config, const DifferentialDriveConfig& drive);
+  WheelGate(const PlausibilityConfig& config, const EncoderScale& encoders);
 
   /// False: leave it out. May set `ticks.restarted`, when the counts went elsewhere and stayed
   /// there.
   [[nodiscard]] bool pass(WheelTicks& ticks);
   /// Samples left out since the start; never reset.
   [[nodiscard]] std::uint32_t left_out() const { return left_out_; }
-  /// Several in a row were: bit 0 for the left wheel, bit 1 for the right one.
+  /// Several in a row were: a bit for each encoder.
   [[nodiscard]] std::uint8_t suspects() const { return in_a_row_ > 1 ? suspects_ : 0; }
 
  private:
   [[nodiscard]] std::uint8_t unbelievable(const WheelTicks& ticks) const;
 
-  std::array<std::int64_t, 2> max_counts_per_s_{};
+  std::array<std::int64_t, kMaxWheels> max_counts_per_s_{};  // 0: of an encoder without a wheel
   int max_in_a_row_;
   int in_a_row_ = 0;
   WheelTicks last_{};

@@ -28,17 +28,18 @@ using SensorDoubts = std::uint8_t;
 /// jumps, hesitates or begins to count wrongly does. Cost: O(1). Context: cycle only.
 class WheelStepCheck {
  public:
-  WheelStepCheck(const PlausibilityConfig& config, const DifferentialDriveConfig& drive);
+  WheelStepCheck(const PlausibilityConfig& config, const EncoderScale& encoders);
 
-  /// Every sample that the gate has passed. Wheels whose speed changed faster than it can.
-  [[nodiscard]] SensorDoubts add(const WheelTicks& ticks);
+  /// Every sample that the gate has passed. Encoders whose wheel changed its speed faster than it
+  /// can, a bit each.
+  [[nodiscard]] std::uint8_t add(const WheelTicks& ticks);
 
  private:
-  std::array<float, 2> counts_per_m_{};
+  std::array<float, kMaxWheels> counts_per_m_{};  // 0: of an encoder without a wheel
   float max_acceleration_mps2_;
   float stamp_jitter_s_;
   WheelTicks last_{};
-  std::array<float, 2> rate_counts_per_s_{};
+  std::array<float, kMaxWheels> rate_counts_per_s_{};
   bool has_last_ = false;
   bool has_rate_ = false;
 };

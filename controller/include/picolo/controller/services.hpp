@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the controller hands on when a command asks for it: the keeping of maps and calibrations.
+/// What the controller is given beside its devices: the keeping of maps and calibrations, and
+/// wheels of another model than the configured one.
 #pragma once
 
 #include <cstddef>
@@ -65,10 +66,12 @@ class CalibrationService {
   ~CalibrationService() = default;
 };
 
-/// nullptr: the commands answer `unsupported`.
+/// nullptr: the commands answer `unsupported`. Everything outlives the controller.
 struct ControllerServices {
   MapService* maps = nullptr;
-  CalibrationService* calibration = nullptr;
+  CalibrationService* calibration = nullptr;  ///< of two wheels on an axle; not used for others
+  /// Of a vehicle with other wheels than two on an axle; nullptr: those of ControllerConfig::drive.
+  DriveModel* drive = nullptr;
 };
 
 }  // namespace picolo::inline v0

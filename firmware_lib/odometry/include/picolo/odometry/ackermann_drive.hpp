@@ -21,7 +21,7 @@ struct AckermannDriveConfig {
   double counts_per_revolution = 4096.0;       ///< of the wheel, gear included
   double steering_counts_per_turn = 36'000.0;  ///< of the steering, 2 pi
   double steering_zero_counts = 0.0;           ///< where it drives straight on
-  double max_steering_rad = 1.3;               ///< for `fixed`, whose turn is path * tan(steering)
+  double max_steering_rad = 1.3;  ///< beyond it no motion; < 1.55 for `fixed`, path * tan(steering)
   DrivenAxle driven = DrivenAxle::fixed;
   [[nodiscard]] constexpr bool valid() const {
     const bool steers = driven == DrivenAxle::steered || max_steering_rad < 1.55;
@@ -43,6 +43,7 @@ class AckermannDrive {
   Result<WheelIncrement> update(const WheelTicks& ticks);
   /// Column 1: of the steering at the newer sample (that of the older one is the same).
   [[nodiscard]] WheelJacobian jacobian() const;
+  [[nodiscard]] EncoderScale encoder_scale() const;
   [[nodiscard]] const AckermannDriveConfig& config() const { return config_; }
 
  private:

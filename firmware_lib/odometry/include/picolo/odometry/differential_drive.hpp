@@ -33,6 +33,7 @@ class DifferentialDrive {
 
   Result<WheelIncrement> update(const WheelTicks& ticks);
   [[nodiscard]] WheelJacobian jacobian() const;
+  [[nodiscard]] EncoderScale encoder_scale() const;
   [[nodiscard]] const DifferentialDriveConfig& config() const { return config_; }
 
  private:

@@ -35,6 +35,7 @@ class MecanumDrive {
 
   Result<WheelIncrement> update(const WheelTicks& ticks);
   [[nodiscard]] WheelJacobian jacobian() const;
+  [[nodiscard]] EncoderScale encoder_scale() const;
   [[nodiscard]] double slip_m() const { return slip_m_; }
   [[nodiscard]] const MecanumDriveConfig& config() const { return config_; }
 

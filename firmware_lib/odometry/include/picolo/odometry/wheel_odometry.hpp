@@ -22,11 +22,18 @@ struct WheelIncrement {
   bool standing = false;  ///< no wheel moved by a single count
 };
 
+/// What each encoder counts while its wheel rolls a metre; 0 for one that no wheel rolls on: a
+/// steering, or none.
+struct EncoderScale {
+  std::array<double, kMaxWheels> counts_per_m{};
+};
+
 /// `update` returns the motion since the previous sample; `not_ready` for the first sample and
 /// after a restart of the counters; `out_of_range` for a sample that is not newer (it is ignored).
 template <typename W>
 concept WheelOdometry = requires(W& wheels, const WheelTicks& ticks) {
   { wheels.update(ticks) } -> std::same_as<Result<WheelIncrement>>;
+  { wheels.encoder_scale() } -> std::same_as<EncoderScale>;
 };
 
 /// Derivative of x, y and theta of `from_T_to` with respect to what each encoder turned, metres and

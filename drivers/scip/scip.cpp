@@ -73,8 +73,10 @@ void ScipProtocol::text_line(ByteView text, const ByteTime& time) {
     model_known_ = true;
     return;
   }
-  // The empty line behind an answer tells nothing new.
-  if (!text.empty()) { counters_.skipped_bytes += static_cast<std::uint32_t>(text.size() + 1); }
+  // The empty line behind an answer tells nothing new either.
+  if (!text.empty() && !is_scip_answer(text)) {
+    counters_.skipped_bytes += static_cast<std::uint32_t>(text.size() + 1);
+  }
 }
 
 void ScipProtocol::end_scan(std::size_t offset) {

@@ -80,11 +80,18 @@ Result<ScipCommand> parse_scip_echo(ByteView line) {
   return Status::corrupt;
 }
 
+bool is_scip_answer(ByteView line) {
+  if (line.size() < 3) { return false; }
+  // The sum covers what stands in front of the semicolon.
+  const std::size_t behind = line[line.size() - 2] == ';' ? 2 : 1;
+  return (behind == 2 || line.size() == 3) &&
+         scip_sum(line.first(line.size() - behind)) == line[line.size() - 1];
+}
+
 bool read_scip_parameter(ByteView line, ScipModel& model) {
   // KEYW:digits;s
   if (line.size() < 8 || line[4] != ':' || line[line.size() - 2] != ';') { return false; }
-  // The sum covers what stands in front of the semicolon.
-  if (scip_sum(line.first(line.size() - 2)) != line[line.size() - 1]) { return false; }
+  if (!is_scip_answer(line)) { return false; }
   const Result<std::uint32_t> number = scip_decimal(line.subspan(5, line.size() - 7));
   if (!number) { return false; }
   ScipModel changed = model;

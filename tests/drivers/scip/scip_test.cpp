@@ -107,6 +107,41 @@ TEST(Scip, GivenTheRecordedSessionThenTheScanIsAsPublished) {
   EXPECT_EQ(protocol.model().max_mm, 5600U);
 }
 
+/// u32 seconds, microseconds, length in network order, then what was read then.
+TEST(Scip, GivenTheArrivalTimesOfTheRecordedSessionThenTheScanComesWithItsLastSum) {
+  PICOLO_NEED_DATA("drivers/hokuyo/example_urg_04lx.logr");
+  std::ifstream file{data_path("drivers/hokuyo/example_urg_04lx.logr"), std::ios::binary};
+  const Bytes log{std::istreambuf_iterator<char>{file}, {}};
+  auto word = [&log](std::size_t at) {
+    return std::uint32_t{log[at]} << 24U | std::uint32_t{log[at + 1]} << 16U |
+           std::uint32_t{log[at + 2]} << 8U | log[at + 3];
+  };
+  ScipProtocol protocol{{.active = false}};
+  std::array<RangeReading, 682> readings{};
+  Timestamp began{};
+  Timestamp handed_out{};
+  std::size_t count = 0;
+  std::size_t behind = 0;
+  for (std::size_t at = 0; at + 12 <= log.size(); at += 12 + word(at + 8)) {
+    const Timestamp arrived{std::chrono::seconds{word(at)} + Duration{word(at + 4)}};
+    for (std::size_t i = 0; i < word(at + 8); ++i) {
+      const std::uint8_t byte = log[at + 12 + i];
+      if (byte == 'G') { began = arrived; }  // the last one is that of the echo GD0044072501
+      protocol.push(byte, {.arrived = arrived, .baud = 19'200}, readings);
+      behind += count > 0 ? 1U : 0U;
+      if (!protocol.scan_ready()) { continue; }
+      handed_out = arrived;
+      count = protocol.pull(readings);
+    }
+  }
+  ASSERT_EQ(count, 682U);
+  EXPECT_EQ(behind, 1U) << "the empty line";
+  EXPECT_TRUE(readings[0].starts_sweep && readings[681].ends_sweep);
+  EXPECT_LE(readings[681].stamp, handed_out);
+  EXPECT_LT(readings[0].stamp, began);
+  EXPECT_LE(protocol.counters().skipped_bytes, 60U) << "echoes of other commands have no sum";
+}
+
 TEST(Scip, GivenAnyCutOfTheStreamThenTheReadingsAreTheSame) {
   Bytes stream;
   for (std::uint32_t i = 0; i < 5; ++i) {

@@ -61,6 +61,8 @@ struct ScipModel {
   }
 };
 
+/// A status, or a line of an answer in words, with the right sum.
+[[nodiscard]] bool is_scip_answer(ByteView line);
 /// Takes one line of an answer to PP ("ARES:1024;" and sum); false when it is none, or when its
 /// sum or its number is wrong.
 bool read_scip_parameter(ByteView line, ScipModel& model);

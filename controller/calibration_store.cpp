@@ -72,6 +72,7 @@ Status CalibrationStore::step(std::size_t max_granules) {
   if (phase_ == Phase::idle) { return Status::ok; }
   if (phase_ == Phase::erase) {
     const Status status = medium_.erase(slot_address(slot_));
+    if (status == Status::not_ready) { return status; }
     if (!is_ok(status)) { return abandon(status); }
     phase_ = Phase::program;
     return Status::not_ready;
@@ -80,6 +81,7 @@ Status CalibrationStore::step(std::size_t max_granules) {
   for (std::size_t k = 0; k < max_granules && programmed_ < bytes_.size(); ++k) {
     const Status status = medium_.program(slot_address(slot_) + programmed_,
                                           std::span{bytes_}.subspan(programmed_, granule));
+    if (status == Status::not_ready) { return status; }
     if (!is_ok(status)) { return abandon(status); }
     programmed_ += granule;
   }

@@ -103,41 +103,53 @@ Status MapStore::begin_save(const RollingMapCore& map) {
   encoder_.begin(map);
   at_ = 0;
   crc_ = 0;
-  phase_ = Phase::erase;
+  erased_ = 0;
+  phase_ = Phase::write;
   return Status::ok;
 }
 
 Status MapStore::step(std::size_t max_pieces) {
   if (phase_ == Phase::idle) { return Status::ok; }
-  if (phase_ == Phase::erase) {  // the header's sector first: from then on the slot is no map
-    const std::size_t sector = medium_.geometry().sector;
-    const Status status = medium_.erase(slot_address(slot_) + at_ * sector);
+  if (needs_erased()) {
+    const Status status = medium_.erase(slot_address(slot_) + erased_);
+    if (status == Status::not_ready) { return status; }
     if (!is_ok(status)) { return abandon(status); }
-    ++at_;
-    if (at_ * sector < slot_size_) { return Status::not_ready; }
-    at_ = 0;
-    phase_ = Phase::write;
+    erased_ += medium_.geometry().sector;
     return Status::not_ready;
   }
-  for (std::size_t k = 0; k < max_pieces; ++k) {
+  // Bytes tell little of the work: a few may stand for thousands of cells.
+  const std::size_t last_cell = cells_covered() + kCellsPerStep;
+  for (std::size_t k = 0; k < max_pieces && !needs_erased() && cells_covered() < last_cell; ++k) {
     Status status = Status::io_error;
     switch (phase_) {
       case Phase::write: status = write_piece(); break;
       case Phase::verify: status = verify_piece(); break;
       case Phase::commit: status = commit(); break;
       case Phase::load: status = load_piece(); break;
-      case Phase::idle:
-      case Phase::erase: break;
+      case Phase::idle: break;
     }
     if (status != Status::not_ready) { return abandon(status); }
   }
   return Status::not_ready;
 }
 
+std::size_t MapStore::cells_covered() const {
+  if (phase_ == Phase::write) { return encoder_.cells_covered(); }
+  return phase_ == Phase::load ? decoder_.cells_covered() : 0;
+}
+
+// Just what is written, sector by sector, however large the slot; the header's sector first: from
+// then on the slot is no map.
+bool MapStore::needs_erased() const {
+  return phase_ == Phase::write && erased_ < slot_size_ &&
+         kMapHeaderSize + at_ + kPieceSize > erased_;
+}
+
 Status MapStore::write_piece() {
   if (encoder_.window_moved()) { return Status::out_of_range; }
   Piece piece{};
   piece.fill(0xFF);
+  const MapEncoder before = encoder_;
   const std::size_t size = encoder_.encode(piece);
   if (size == 0) {
     header_.payload_bytes = static_cast<std::uint32_t>(at_);
@@ -148,10 +160,14 @@ Status MapStore::write_piece() {
     return Status::not_ready;
   }
   if (kMapHeaderSize + at_ + kPieceSize > slot_size_) { return Status::full; }
-  crc_ = crc32(std::span{piece}.first(size), crc_);
   const Status status = medium_.program(slot_address(slot_) + kMapHeaderSize + at_, piece);
+  if (!is_ok(status)) {
+    encoder_ = before;  // `not_ready`: the same piece again
+    return status;
+  }
+  crc_ = crc32(std::span{piece}.first(size), crc_);
   at_ += size;
-  return is_ok(status) ? Status::not_ready : status;
+  return Status::not_ready;
 }
 
 Status MapStore::verify_piece() {

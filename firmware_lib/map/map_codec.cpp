@@ -17,6 +17,8 @@ constexpr std::uint32_t kMagic = 0x31504D50;  // "PMP1"
 constexpr std::size_t kCrcAt = kMapHeaderSize - 4;
 constexpr std::size_t kMinRun = 4;
 constexpr std::size_t kMaxRun = 127 * 256 + 255 + kMinRun;
+// A step of a save has room for some tokens: none of them stands for much of the map.
+constexpr std::size_t kRunsOfAMap = 64;
 constexpr std::size_t kMaxLiterals = 128;
 constexpr int kMaxSide = 32'768;
 
@@ -92,9 +94,9 @@ void MapEncoder::begin(const RollingMapCore& map) {
   cell_ = 0;
 }
 
-std::size_t MapEncoder::run_at(std::size_t cell) const {
+std::size_t MapEncoder::run_at(std::size_t cell, std::size_t longest) const {
   const std::span<const std::int8_t> cells = map_->occupancy();
-  const std::size_t end = std::min(cells.size(), cell + kMaxRun);
+  const std::size_t end = std::min(cells.size(), cell + longest);
   std::size_t next = cell + 1;
   while (next < end && cells[next] == cells[cell]) { ++next; }
   return next - cell;
@@ -103,7 +105,7 @@ std::size_t MapEncoder::run_at(std::size_t cell) const {
 void MapEncoder::next_token() {
   const std::size_t cells = map_->occupancy().size();
   head_written_ = 0;
-  const std::size_t run = run_at(cell_);
+  const std::size_t run = run_at(cell_, std::clamp(cells / kRunsOfAMap, kMinRun, kMaxRun));
   if (run >= kMinRun) {
     const std::size_t more = run - kMinRun;
     head_ = {static_cast<std::uint8_t>(128 + more / 256), static_cast<std::uint8_t>(more % 256),
@@ -114,7 +116,7 @@ void MapEncoder::next_token() {
   }
   std::size_t end = cell_ + run;
   while (end < cells && end - cell_ < kMaxLiterals) {
-    const std::size_t next = run_at(end);
+    const std::size_t next = run_at(end, kMinRun);
     if (next >= kMinRun) { break; }
     end += next;
   }

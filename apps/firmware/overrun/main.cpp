@@ -9,7 +9,6 @@
 #include <cstring>
 #include <new>
 
-#include "picolo/controller/last_words.hpp"
 #include "platform.hpp"
 #include "robot.hpp"
 
@@ -20,18 +19,8 @@ constexpr std::uint32_t kFirstSpin = 50;
 constexpr std::uint32_t kTicks = 240;
 constexpr std::uint32_t kTicksAfterReset = 60;
 
-/// Survives a reset.
-struct Survivor {
-  EventRing events;
-  LastWords words;
-};
-
-[[gnu::section(".noinit")]] Survivor g_survivor;
 alignas(64) constinit std::byte g_board[sizeof(mps2::Mps2Board)];
 alignas(64) constinit std::byte g_robot[sizeof(FreeRunningRobot)];
-constinit const Schedule* g_schedule = nullptr;
-constinit Clock* g_clock = nullptr;
-
 class SpinningPort final : public SerialPort {
  public:
   SpinningPort(SerialPort& port, Clock& clock) : port_(port), clock_(clock) {}
@@ -70,27 +59,12 @@ OverrunPolicy asked_policy() {
   return std::strcmp(text, "skip_next") == 0 ? OverrunPolicy::skip_next : OverrunPolicy::carry_on;
 }
 
-void tell_reset(const ResetReport& report, const Schedule& schedule) {
-  constexpr const char* kCauses[] = {"fault", "stuck", "starved"};
-  platform::write("reset by watchdog, task ");
-  platform::write(report.task < schedule.size() ? schedule.entry(report.task).name : "none");
-  platform::write(", cause ");
-  platform::write(kCauses[static_cast<std::size_t>(report.cause)]);
-  platform::write("\n");
-  tell("reset_task", report.task);
-  tell("reset_cause", static_cast<std::uint64_t>(report.cause));
-  tell("reset_frames", report.frames);
-  tell("reset_slipped", report.slipped);
-  tell("reset_overruns", report.overruns);
-  tell("resets", report.resets);
-}
-
 /// How often it is in the ring, and what its last argument was.
 void tell_events(EventCode code, const char* count_name, const char* argument_name) {
   std::uint32_t count = 0;
   std::int32_t argument = 0;
-  for (std::size_t i = 0; i < g_survivor.events.size(); ++i) {
-    const Event& event = g_survivor.events[i];
+  for (std::size_t i = 0; i < events().size(); ++i) {
+    const Event& event = events()[i];
     if (event.code != code) { continue; }
     ++count;
     argument = event.argument;
@@ -100,17 +74,14 @@ void tell_events(EventCode code, const char* count_name, const char* argument_na
 }
 
 int run() {
-  const Result<ResetReport> reset = g_survivor.words.take(g_survivor.events);
+  const Result<ResetReport> reset = last_reset();
   auto& board = *new (g_board) mps2::Mps2Board({});
   SpinningPort lidar{board.lidar, board.clock};
   auto& robot = *new (g_robot) FreeRunningRobot({.board = board,
                                                  .lidar = lidar,
                                                  .store = board.store,
-                                                 .policies = {.serial = asked_policy()}},
-                                                g_survivor.events);
+                                                 .policies = {.serial = asked_policy()}});
   const Schedule& schedule = robot.controller().schedule();
-  g_schedule = &schedule;
-  g_clock = &board.clock;
   std::uint32_t spins = reset ? 0 : word_as_number(1);
   const Duration time{word_as_number(2)};
   board.start(5ms);
@@ -142,13 +113,6 @@ int run() {
 
 }  // namespace
 }  // namespace picolo
-
-/// The watchdog's first word. The reset comes by itself.
-extern "C" void nmi_handler() {
-  // Started after both were set.
-  picolo::g_survivor.words.note(*picolo::g_schedule, picolo::g_clock->now());
-  while (true) { __asm__ volatile("" ::: "memory"); }
-}
 
 int main() {
   picolo::platform::leave(picolo::run());

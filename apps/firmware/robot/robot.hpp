@@ -7,6 +7,7 @@
 
 #include "picolo/controller/calibration_store.hpp"
 #include "picolo/controller/controller.hpp"
+#include "picolo/controller/last_words.hpp"
 #include "picolo/controller/onboard_calibration.hpp"
 #include "picolo/controller/stored_maps.hpp"
 #include "picolo/drivers/canopen/canopen_wheels.hpp"
@@ -21,6 +22,9 @@ namespace picolo {
 /// may be incomplete. After as long again the board is reset.
 inline constexpr Duration kWatchdogPeriod = 350ms;
 
+/// Calibrations are in the first two sectors.
+inline constexpr std::size_t kMapAddress = 2 * mps2::kStoreSector;
+
 /// What stands between the robot and its board.
 struct RobotWiring {
   mps2::Mps2Board& board;
@@ -32,14 +36,17 @@ struct RobotWiring {
 class FreeRunningRobot {
  public:
   using Type = Controller<RoomProfile, CanopenWheels, Ld06, WitMotion>;
-  static constexpr std::size_t kCalibrationPoints = 450;
+  static constexpr std::size_t kCalibrationPoints = 240;
 
   /// Everything referred to outlives the robot.
-  FreeRunningRobot(const RobotWiring& wiring, EventRing& events);
+  explicit FreeRunningRobot(const RobotWiring& wiring);
   FreeRunningRobot(const FreeRunningRobot&) = delete;
   FreeRunningRobot& operator=(const FreeRunningRobot&) = delete;
   ~FreeRunningRobot() = default;
 
+  /// Before `start`: the map in flash becomes the one that is localised in. Status as
+  /// Controller::load_map.
+  Status load_map() { return controller_.load_map(stored_map_); }
   /// Devices, cycle and watchdog; the first frame runs at once.
   Status start();
   /// Called after a tick: runs all frames that are due. Waits the few microseconds by which frames
@@ -53,6 +60,7 @@ class FreeRunningRobot {
  private:
   mps2::Mps2Board& board_;
   CalibrationStore records_;
+  MapStore stored_map_;
   StoredMaps maps_;
   ControllerConfig config_;
   SlcanBus can_;
@@ -63,10 +71,16 @@ class FreeRunningRobot {
   Type controller_;
 };
 
+/// Once, before the robot starts: what the run before left behind, when the watchdog ended it.
+[[nodiscard]] Result<ResetReport> last_reset();
+/// The controller's, in memory that survives a reset.
+[[nodiscard]] const EventRing& events();
+
 /// A number from the image's command line, 0 when there is none.
 [[nodiscard]] std::uint32_t word_as_number(std::size_t index);
 /// A line for the debugger.
 void tell(const char* name, std::uint64_t value);
+void tell_reset(const ResetReport& report, const Schedule& schedule);
 /// How the cycle kept its releases, and each task its budget.
 void tell_cycle(const Schedule& schedule);
 

@@ -12,6 +12,7 @@
 #include "picolo/hal/conformance/byte_store.hpp"
 #include "picolo/hal/conformance/serial_port.hpp"
 #include "support/conformance.hpp"
+#include "support/slow_flash.hpp"
 
 namespace picolo::board {
 namespace {
@@ -111,6 +112,17 @@ TEST(MemoryByteStore, KeepsTheContractsOfAStore) {
   Memory memory;
   test::expect_conformance(memory, conformance::check_byte_store<Memory>, 18);
   EXPECT_TRUE(memory.memory_store.survived());
+}
+
+struct SlowMemory : Memory {
+  test::SlowFlash flash{memory_store, 7};
+  ByteStore& store() { return flash; }
+};
+
+TEST(MemoryByteStore, ErasedInTheBackgroundKeepsTheSameContracts) {
+  SlowMemory memory;
+  test::expect_conformance(memory, conformance::check_byte_store<SlowMemory>, 18);
+  EXPECT_GT(memory.flash.waits, 0U);
 }
 
 TEST(MemoryByteStore, ErasesMemoryThatWasNeverAStore) {

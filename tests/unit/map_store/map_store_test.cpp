@@ -10,8 +10,10 @@
 #include <memory>
 #include <vector>
 
+#include "picolo/controller/calibration_store.hpp"
 #include "picolo/core/random.hpp"
 #include "picolo/sim/sim_byte_store.hpp"
+#include "support/slow_flash.hpp"
 
 namespace picolo {
 namespace {
@@ -93,7 +95,7 @@ TEST(MapStore, AfterAPowerCutAnywhereTheMapIsWhollyOldOrWhollyNew) {
     operations = flash.device.operations() - before;
   }
   int cases = 0;
-  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+  for (std::uint64_t seed = 1; seed <= 450; ++seed) {
     for (std::uint32_t cut = 0; cut <= operations; ++cut) {
       Flash flash{8};
       {
@@ -159,6 +161,53 @@ TEST(MapStore, AWindowThatMovesDuringASaveEndsIt) {
   map->core().place(0, 0);
   EXPECT_EQ(store.step(1), Status::out_of_range);
   EXPECT_FALSE(store.busy());
+}
+
+TEST(MapStore, ErasesNoMoreThanItWrites) {
+  Flash flash{8};
+  test::SlowFlash device{flash.device, 0};
+  MapStore store{device};
+  ASSERT_EQ(save(store, *numbered(1)), Status::ok);
+  const std::size_t used = kMapHeaderSize + store.header().payload_bytes + MapStore::kPieceSize;
+  ASSERT_LT(used, 2 * kSector);
+  EXPECT_LE(device.erases, used / kSector + 1);
+}
+
+// One flash, one erase at a time, and neither store knows of the other.
+TEST(MapStore, SharesAFlashThatErasesInTheBackgroundWithACalibration) {
+  for (int askings = 1; askings <= 9; ++askings) {
+    std::vector<std::uint8_t> memory((2 + 2 * kSectorsPerSlot) * kSector);
+    sim::SimByteStore flash{memory, kSector, 8};
+    test::SlowFlash device{flash, askings};
+    CalibrationStore records{device};
+    MapStore maps{device, {.address = 2 * kSector}};
+    for (int k = 1; k <= 4; ++k) {
+      const auto map = numbered(k);
+      CalibrationRecord record;
+      record.gyro_scale = 1.0F + static_cast<float>(k);
+      ASSERT_EQ(maps.begin_save(map->core()), Status::ok);
+      Status status = maps.step(1);
+      ASSERT_EQ(records.begin_save(record), Status::ok);
+      for (int step = 0; records.saving() || maps.busy(); ++step) {
+        ASSERT_LT(step, 1000);
+        if (records.saving()) {
+          const Status saved = records.step(1);
+          ASSERT_TRUE(saved == Status::ok || saved == Status::not_ready);
+        }
+        if (maps.busy()) { status = maps.step(3); }
+      }
+      EXPECT_EQ(status, Status::ok);
+      CalibrationRecord kept;
+      ASSERT_EQ(records.load(kept), Status::ok);
+      EXPECT_EQ(kept.gyro_scale, record.gyro_scale);
+      Map back;
+      MapStore reader{device, {.address = 2 * kSector}};
+      ASSERT_EQ(finish(reader, reader.begin_load(back.core())), Status::ok);
+      EXPECT_TRUE(same(back, *map));
+    }
+    EXPECT_GT(device.waits, device.erases * static_cast<std::uint32_t>(askings) - 1);
+    EXPECT_EQ(flash.overwrites(), 0U);
+  }
 }
 
 TEST(MapStore, SlotsThatDoNotFitAreRefused) {

@@ -38,20 +38,22 @@ class MapStore {
   /// Begins to save. Status as `begin_load` where nothing can be stored. The map outlives the save.
   Status begin_save(const RollingMapCore& map);
 
-  /// At most one erase, or `max_pieces` pieces of kPieceSize bytes. `not_ready`: call again; `ok`:
-  /// done. Of a load, `corrupt`: neither slot is whole, the map is untouched; `io_error` may leave
-  /// half a map. Of a save, `full`: the slot is too small; `out_of_range`: the map's window moved,
-  /// begin again; `corrupt`: what was read back differs. `io_error`: the medium failed. After each
-  /// of these the old map still counts.
+  /// At most one erase, or `max_pieces` pieces of kPieceSize bytes, fewer when these cover more
+  /// than kCellsPerStep cells. `not_ready`: call again; `ok`: done. Of a load, `corrupt`: neither
+  /// slot is whole, the map is untouched; `io_error` may leave half a map. Of a save, `full`: the
+  /// slot is too small; `out_of_range`: the map's window moved, begin again; `corrupt`: what was
+  /// read back differs. `io_error`: the medium failed. After each of these the old map still
+  /// counts.
   Status step(std::size_t max_pieces);
   [[nodiscard]] bool busy() const { return phase_ != Phase::idle; }
   /// Of the map loaded or saved last.
   [[nodiscard]] const MapHeader& header() const { return header_; }
 
   static constexpr std::size_t kPieceSize = 64;
+  static constexpr std::size_t kCellsPerStep = 4096;
 
  private:
-  enum class Phase : std::uint8_t { idle, erase, write, verify, commit, load };
+  enum class Phase : std::uint8_t { idle, write, verify, commit, load };
   struct Slot {
     MapHeader header{};
     Status status = Status::not_ready;
@@ -60,6 +62,8 @@ class MapStore {
   Status abandon(Status status);
   Status load_piece();
   Status after_check();
+  [[nodiscard]] bool needs_erased() const;
+  [[nodiscard]] std::size_t cells_covered() const;
   Status write_piece();
   Status verify_piece();
   Status commit();
@@ -78,7 +82,8 @@ class MapStore {
   RollingMapCore* target_ = nullptr;
   MapHeader header_{};
   std::size_t slot_ = 0;
-  std::size_t at_ = 0;  // bytes of the payload handled, or sectors erased
+  std::size_t at_ = 0;      // bytes of the payload handled
+  std::size_t erased_ = 0;  // bytes of the slot
   std::uint32_t crc_ = 0;
   bool second_try_ = false;
   Phase phase_ = Phase::idle;

@@ -29,9 +29,14 @@ class ByteStore {
   [[nodiscard]] virtual ByteStoreGeometry geometry() const = 0;
   /// `out_of_range`: beyond the size. `io_error`: the medium failed.
   virtual Status read(std::size_t address, std::span<std::uint8_t> bytes) = 0;
-  /// `invalid_argument`: not aligned to granules. `out_of_range`, `io_error` as above.
+  /// `invalid_argument`: not aligned to granules. `out_of_range`, `io_error` as above. `not_ready`:
+  /// an erase is under way, nothing was done; call again.
   virtual Status program(std::size_t address, std::span<const std::uint8_t> bytes) = 0;
   /// Erases the sector that starts at `address`. `invalid_argument`: not the start of a sector.
+  /// `not_ready`: it has begun, or another one is under way; call again with the same address until
+  /// `ok`, which a sector answers that is erased already. So does a port whose flash takes longer
+  /// than a minor frame for a sector: in a cycle that waited, frames would slip. Meanwhile `read`
+  /// of other sectors answers as ever.
   virtual Status erase(std::size_t address) = 0;
 
  protected:

@@ -41,15 +41,16 @@ class MapEncoder {
   /// The map outlives the encoding.
   void begin(const RollingMapCore& map);
   /// Fills `out` as far as there is something left; returns the number of bytes written, 0 at the
-  /// end. Cost: O(cells covered), at most 32771 for 3 bytes.
+  /// end. Cost: O(cells covered), at most a 64th of the map for 3 bytes.
   [[nodiscard]] std::size_t encode(std::span<std::uint8_t> out);
   /// The map's window is no longer the one of `begin`: what was written is worthless.
   [[nodiscard]] bool window_moved() const { return !(map_->window() == window_); }
   [[nodiscard]] const GridWindow& window() const { return window_; }
+  [[nodiscard]] std::size_t cells_covered() const { return cell_; }
 
  private:
   void next_token();
-  [[nodiscard]] std::size_t run_at(std::size_t cell) const;
+  [[nodiscard]] std::size_t run_at(std::size_t cell, std::size_t longest) const;
 
   const RollingMapCore* map_ = nullptr;
   GridWindow window_{};
@@ -73,6 +74,7 @@ class MapDecoder {
   /// Cost: O(cells covered).
   Status decode(ByteView bytes);
   [[nodiscard]] bool complete() const { return cell_ == cells_; }
+  [[nodiscard]] std::size_t cells_covered() const { return cell_; }
 
  private:
   enum class Expect : std::uint8_t { token, length, value, literal };

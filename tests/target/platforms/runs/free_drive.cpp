@@ -3,6 +3,8 @@
 
 #include "free_drive.hpp"
 
+#include <gtest/gtest.h>
+
 #include <array>
 #include <cmath>
 #include <deque>
@@ -26,7 +28,7 @@ class Surroundings {
       : board_(board),
         plan_(plan),
         drive_(drive),
-        simulation_(std::make_unique<sim::Simulation>(hashed_drive(plan.scene))) {}
+        simulation_(std::make_unique<sim::Simulation>(plan.world)) {}
 
   void run() {
     constexpr std::array<std::size_t, 2> kHeard{kPulse, kCan};
@@ -61,7 +63,10 @@ class Surroundings {
   void look_at(const CanFrame& frame) {
     if (const auto pose = decode(can_table::kPose, kBase, frame)) { pose_ = *pose; }
     if (const auto time = decode(can_table::kTime, kBase, frame)) { judge(*time); }
-    if (decode(can_table::kCalibration, kBase, frame)) { ++drive_.calibration_frames; }
+    if (const auto calibration = decode(can_table::kCalibration, kBase, frame)) {
+      ++drive_.calibration_frames;
+      drive_.calibration_phase = static_cast<CalibrationPhase>(calibration->raw[0]);
+    }
     if (const auto reply = decode(can_table::kReply, kBase, frame)) {
       drive_.answers.push_back(static_cast<CommandResult>(reply->raw[2]));
     }
@@ -91,10 +96,11 @@ class Surroundings {
 
   void ask(const CanValues& health) {
     if (asked_ == plan_.asks.size() ||
-        milliseconds_ < 2000 + 1000 * static_cast<std::int64_t>(asked_)) {
+        std::chrono::milliseconds{milliseconds_} < plan_.asks[asked_].at) {
       return;
     }
-    Command command = plan_.asks[asked_];
+    Command command = plan_.asks[asked_].command;
+    command.counter = static_cast<std::uint8_t>(asked_ + 1);
     command.tick = static_cast<std::uint8_t>(health.raw[3]);
     ++asked_;
     say(kCan, test::SlcanAdapter::line_of(encode_command(kBase, command)));
@@ -142,11 +148,21 @@ class Surroundings {
 
 }  // namespace
 
+std::vector<Platform> boards_with_devices() {
+  std::vector<Platform> boards = platforms_to_judge();
+  std::erase_if(boards, [](const Platform& platform) {
+    return !std::filesystem::exists(image(platform, "free_running"));
+  });
+  return boards;
+}
+
 FreeDrive drive_freely(const Platform& platform, const FreeDrivePlan& plan) {
   FreeDrive drive;
   QemuBoard board{platform,
                   "free_running",
-                  {std::to_string(plan.seconds), std::to_string(plan.wrap_ms), "paced"},
+                  {std::to_string(plan.seconds), std::to_string(plan.wrap_ms), "paced",
+                   std::to_string(plan.erase_time.count()), plan.erase_waits ? "waits" : "goes_on",
+                   plan.flash_file.string()},
                   "-icount shift=1,sleep=off"};
   if (board.started()) { Surroundings{board, plan, drive}.run(); }
   const Outcome outcome = board.finish();
@@ -154,6 +170,40 @@ FreeDrive drive_freely(const Platform& platform, const FreeDrivePlan& plan) {
   if (board.not_sent() > 0) { drive.trouble += "QEMU did not take all bytes"; }
   drive.figures = figures_in(outcome.output);
   return drive;
+}
+
+std::int64_t overruns_in(const Figures& figures) {
+  std::int64_t sum = 0;
+  for (const auto& [name, value] : figures) { sum += name.starts_with("overruns_") ? value : 0; }
+  return sum;
+}
+
+std::int64_t bytes_lost(const Figures& figures) {
+  return figures.at("lost_can") + figures.at("lost_lidar") + figures.at("lost_imu");
+}
+
+FileByteStoreConfig flash_in(const std::filesystem::path& file) {
+  return {.geometry = {.size = std::filesystem::file_size(file), .sector = 4096, .granule = 8}};
+}
+
+void expect_map_kept(const FreeDrivePlan& plan, const FreeDrive& drive) {
+  ASSERT_EQ(drive.figures.at("map_status"), static_cast<int>(Status::ok));
+  FileByteStore flash{flash_in(plan.flash_file)};
+  ASSERT_EQ(flash.open(plan.flash_file.c_str()), Status::ok);
+  MapStore store{flash, {.address = 2 * flash.geometry().sector}};
+  const auto owned = std::make_unique<SimulatedController<RoomProfile>>(plan.world);
+  SimulatedController<RoomProfile>& robot = *owned;
+  ASSERT_EQ(robot.controller().load_map(store), Status::ok);
+  Hash map;
+  add_map(robot.controller().pipeline().localiser().map(), map);
+  EXPECT_EQ(static_cast<std::int64_t>(map.value() >> 1), drive.figures.at("map_hash"));
+  ASSERT_EQ(robot.start(), Status::ok);
+  for (int frame = 0; frame < 5 * 200; ++frame) { ASSERT_EQ(robot.run_frame(), Status::ok); }
+  const PoseEstimate& pose = robot.controller().estimate();
+  EXPECT_EQ(pose.state, HealthState::tracking);
+  const Result<Pose2d> truth = robot.true_map_T_base(pose.stamp);
+  ASSERT_TRUE(truth);
+  EXPECT_LT(std::hypot(pose.map_T_base.x_m - truth->x_m, pose.map_T_base.y_m - truth->y_m), 0.1);
 }
 
 }  // namespace picolo::target

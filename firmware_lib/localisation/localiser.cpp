@@ -16,6 +16,14 @@ namespace {
 
 constexpr std::size_t kPointsPerInsertStep = 4096;  // of `process`; any number gives the same map
 
+/// What one ray of `map_step` stands for: so many cells walked over; one that changes is three
+/// more.
+constexpr std::uint32_t kWorkPerRay = 128;
+
+std::uint32_t ray_work(const MapWork& work) {
+  return work.ray_cells + 3 * work.changed_cells;
+}
+
 Matrix3f rotation_of(float theta_rad) {
   const SinCos<float> yaw = sin_cos(theta_rad);
   return {{yaw.cosine, -yaw.sine, 0.0F, yaw.sine, yaw.cosine, 0.0F, 0.0F, 0.0F, 1.0F}};
@@ -41,7 +49,6 @@ LocaliserCore::LocaliserCore(const LocaliserConfig& config, RollingMapCore& fine
       fine_(fine),
       coarse_(coarse),
       surfaces_(surfaces),
-      coarse_matcher_(config.coarse),
       fine_matcher_(config.fine),
       searches_(config.search.correlative),
       relocaliser_(config_.relocalise, fine, coarse),
@@ -153,15 +160,7 @@ void LocaliserCore::start_match() {
   request_ = {};
   request_.points = sweep_.points;
   request_.prior = prior_about(to_window(fine_.window(), prediction_));
-  if (!config_.use_coarse) {
-    refine(request_.prior.pose);
-    return;
-  }
-  MatchRequest coarse = request_;
-  coarse.start = to_window(coarse_.window(), prediction_);
-  coarse.prior = prior_about(coarse.start);
-  coarse_matcher_.begin(coarse_.field(), coarse);
-  stage_ = Stage::coarse;
+  refine(request_.prior.pose);
 }
 
 PosePrior LocaliserCore::prior_about(const Pose2f& pose) const {
@@ -178,12 +177,10 @@ void LocaliserCore::refine(const Pose2f& start) {
 
 bool LocaliserCore::match_step() {
   if (phase_ != LocaliserPhase::matching) { return true; }
+  if (stage_ == Stage::refine) {
+    counters_.point_iterations += static_cast<std::uint32_t>(sweep_.points.size());
+  }
   switch (stage_) {
-    case Stage::coarse:
-      if (coarse_matcher_.step()) {
-        refine(to_window(fine_.window(), to_map(coarse_.window(), coarse_matcher_.report().pose)));
-      }
-      return false;
     case Stage::search:
       if (!searches_.near().step(config_.search.lookups_per_step)) { return false; }
       candidate_ = 0;
@@ -262,7 +259,8 @@ void LocaliserCore::start_map_update() {
 }
 
 void LocaliserCore::add_points(std::size_t max_points, bool hits) {
-  const std::size_t end = std::min(sweep_.points.size(), next_point_ + max_points);
+  std::size_t end = std::min(sweep_.points.size(), next_point_ + max_points);
+  const std::uint32_t before = ray_work(fine_.work());
   for (RollingMapCore* map : {&fine_, &coarse_}) {
     const Pose2f window_T_base = to_window(map->window(), map_T_base_);
     const SinCos<float> yaw = sin_cos(window_T_base.theta_rad);
@@ -286,6 +284,9 @@ void LocaliserCore::add_points(std::size_t max_points, bool hits) {
       map->add_ray(
           {first.x_m + share * (last.x_m - first.x_m), first.y_m + share * (last.y_m - first.y_m)},
           place(p), map == &fine_ ? config_.ray_stop_cells : 1);
+      if (map == &fine_ && ray_work(fine_.work()) - before >= kWorkPerRay * max_points) {
+        end = k + 1;
+      }
     }
   }
   next_point_ = end;

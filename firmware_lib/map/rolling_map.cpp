@@ -154,14 +154,18 @@ void RollingMapCore::hit_cell(int column, int row) {
   if (cell >= config_.occupied_from && !was_occupied) { paint(column, row); }
 }
 
+void RollingMapCore::clear_cell(int index) {
+  if (mark_changed(index)) { lower_cell(index); }
+}
+
 // Out of line: it is the rare case of the loops that call it.
-[[gnu::noinline]] void RollingMapCore::clear_cell(int index) {
-  if (!mark_changed(index)) { return; }
+[[gnu::noinline]] void RollingMapCore::lower_cell(int index) {
   ++work_.changed_cells;
   std::int8_t& cell = storage_.occupancy[static_cast<std::size_t>(index)];
   const int before = cell;
-  cell = static_cast<std::int8_t>(std::max<int>(before + config_.miss, config_.low));
-  if (before >= config_.occupied_from && cell < config_.occupied_from) { mark_stale(index); }
+  const int after = std::max<int>(before + config_.miss, config_.low);
+  cell = static_cast<std::int8_t>(after);
+  if (before >= config_.occupied_from && after < config_.occupied_from) { mark_stale(index); }
 }
 
 void RollingMapCore::paint(int column, int row) {
@@ -246,12 +250,20 @@ void RollingMapCore::add_ray(Point2f window_lidar, Point2f window_p, int stop_ce
 // The same cells as the loop above, which steps along the longer axis every time.
 void RollingMapCore::clear_line(const Line& line, int index, int steps) {
   const std::int8_t* const cells = storage_.occupancy.data();
+  std::uint32_t* const changed = storage_.changed.data();
   const int low = config_.low;
   const Line at = line;
   int error = at.longer - at.shorter;
   for (; steps > 0; --steps) {
     // Most of free space is as free as it gets: nothing to change, and no hit comes after the rays.
-    if (cells[index] > low) { clear_cell(index); }
+    if (cells[index] > low) {
+      const std::uint32_t bit = 1U << (static_cast<std::uint32_t>(index) % 32U);
+      const std::uint32_t word = changed[index >> 5];
+      if ((word & bit) == 0) {
+        changed[index >> 5] = word | bit;
+        lower_cell(index);
+      }
+    }
     const bool diagonal = 2 * error < at.longer;
     error -= at.shorter;
     index += at.along;

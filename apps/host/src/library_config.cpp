@@ -118,7 +118,6 @@ void read_uncertainty(ConfigFile& file, const std::string& section, UncertaintyC
 void read(ConfigFile& file, const std::string& section, LocaliserConfig& config) {
   read_uncertainty(file, section + ".uncertainty", config.uncertainty);
   read_map(file, section + ".map", config.map);
-  read_matcher(file, section + ".coarse", config.coarse);
   read_matcher(file, section + ".fine", config.fine);
   read_noise(file, section + ".noise", config.noise);
   read_search(file, section + ".search", config.search);
@@ -126,7 +125,6 @@ void read(ConfigFile& file, const std::string& section, LocaliserConfig& config)
   read_surface(file, section + ".surface", config.surface);
   file.read(section, "use_surfaces", config.use_surfaces);
   file.read(section, "learn_heading", config.learn_heading);
-  file.read(section, "use_coarse", config.use_coarse);
   file.read(section, "min_inlier_share", config.min_inlier_share);
   file.read(section, "insert_every_m", config.insert_every_m);
   file.read(section, "insert_every_rad", config.insert_every_rad);

@@ -43,7 +43,6 @@ TEST(LibraryConfig, AnEmptyFileIsTheDefault) {
 
 TEST(LibraryConfig, EveryPartIsReadFromItsOwnSection) {
   const LocaliserConfig config = read(R"([localiser]
-use_coarse = false
 learn_heading = false
 use_surfaces = false
 min_inlier_share = 0.25
@@ -58,8 +57,6 @@ miss = -9
 low = -50
 high = 90
 occupied_from = 20
-[localiser.coarse]
-max_iterations = 6
 [localiser.fine]
 max_iterations = 7
 min_points = 31
@@ -115,7 +112,6 @@ max_neighbours = 7
 max_offset_m = 0.06
 min_cosine = 0.9
 )");
-  EXPECT_FALSE(config.use_coarse);
   EXPECT_FALSE(config.learn_heading);
   EXPECT_FALSE(config.use_surfaces);
   EXPECT_EQ(config.surface.reach_m, 0.3F);
@@ -128,7 +124,6 @@ min_cosine = 0.9
   EXPECT_EQ(config.map.hit, 30);
   EXPECT_EQ(config.map.miss, -9);
   EXPECT_EQ(config.map.occupied_from, 20);
-  EXPECT_EQ(config.coarse.max_iterations, 6);
   EXPECT_EQ(config.fine.max_iterations, 7);
   EXPECT_EQ(config.fine.min_points, 31);
   EXPECT_EQ(config.fine.inlier_m, 0.11F);

@@ -54,7 +54,6 @@ TEST(LocaliserSearch, ALongHopWithABadPredictionIsFoundAndGaussNewtonAloneLosesI
 
   LocaliserConfig alone;
   alone.search.enabled = false;
-  alone.use_coarse = false;
   const auto without = settled(alone);
   ASSERT_EQ(without->core().process(sweep_of(scan, odometry), true), Status::ok);
   EXPECT_GT(std::hypot(without->core().map_T_base().x_m - truth.x_m,

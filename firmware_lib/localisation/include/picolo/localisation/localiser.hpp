@@ -95,9 +95,7 @@ struct UncertaintyConfig {
 
 struct LocaliserConfig {
   MapConfig map{};  ///< of the fine grid; cell size and field radius come from the profile
-  GaussNewtonConfig coarse{.max_iterations = 5, .converged_m = 0.01F, .converged_rad = 2e-3F};
-  GaussNewtonConfig fine{};
-  bool use_coarse = true;  ///< two levels: the wide basin of the coarse grid first
+  GaussNewtonConfig fine{.max_iterations = 10};  ///< and so the slowest match, see docs/matching.md
   PredictionNoise noise{};
   SearchConfig search{};
   RelocaliseConfig relocalise{};
@@ -115,11 +113,11 @@ struct LocaliserConfig {
   float max_insert_range_m = 30.0F;
   int max_repair_tiles = 8;  ///< of the field, in one map step
   [[nodiscard]] constexpr bool valid() const {
-    return map.valid() && coarse.valid() && fine.valid() && min_inlier_share >= 0.0F &&
-           min_inlier_share <= 1.0F && insert_every_m >= 0.0F && insert_every_rad >= 0.0F &&
-           ray_stop_cells >= 0 && noise.weight >= 0.0F && heading.valid() && search.valid() &&
-           relocalise.valid() && surface.valid() && uncertainty.valid() &&
-           max_insert_range_m > 0.0F && max_repair_tiles > 0;
+    return map.valid() && fine.valid() && min_inlier_share >= 0.0F && min_inlier_share <= 1.0F &&
+           insert_every_m >= 0.0F && insert_every_rad >= 0.0F && ray_stop_cells >= 0 &&
+           noise.weight >= 0.0F && heading.valid() && search.valid() && relocalise.valid() &&
+           surface.valid() && uncertainty.valid() && max_insert_range_m > 0.0F &&
+           max_repair_tiles > 0;
   }
 };
 
@@ -134,6 +132,7 @@ struct LocaliserCounters {
   std::uint32_t searched_anywhere = 0;          ///< ... or with one of the whole map, ...
   std::uint32_t found_anywhere = 0;             ///< ... which found the one place that it fits
   std::uint32_t inserted = 0;                   ///< sweeps that entered the map
+  std::uint32_t point_iterations = 0;           ///< points walked by iterations; modulo 2^32
   std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
 };
 
@@ -169,7 +168,8 @@ class LocaliserCore {
   /// One slice: a Gauss-Newton iteration, or `search.lookups_per_step` lookups of a search. True
   /// when the match is over.
   bool match_step();
-  /// Up to `max_rays` beams into the map, then repairs of the field. True when the sweep is done.
+  /// Up to `max_rays` beams into the map, fewer where they are long or clear what nobody saw
+  /// before; then repairs of the field. True when the sweep is done.
   bool map_step(std::size_t max_rays);
   /// All slices at once, for host users.
   Status process(const UndistortedSweep& sweep, bool odometry_valid);
@@ -240,7 +240,7 @@ class LocaliserCore {
 
  private:
   /// What one slice of the match does.
-  enum class Stage : std::uint8_t { coarse, refine, search, relocalise };
+  enum class Stage : std::uint8_t { refine, search, relocalise };
   /// Of the sweep at hand, in the whole map.
   enum class Relocalisation : std::uint8_t { none, searching, refining, settling, over };
 
@@ -277,7 +277,6 @@ class LocaliserCore {
   RollingMapCore& fine_;
   RollingMapCore& coarse_;
   SurfaceStorage surfaces_;
-  GaussNewtonMatcher<DistanceFieldView> coarse_matcher_;
   GaussNewtonMatcher<DistanceFieldView> fine_matcher_;
   UndistortedSweep sweep_{};
   SearchMemory searches_;

@@ -117,6 +117,7 @@ class RollingMapCore {
   };
   void clear_line(const Line& line, int index, int steps);
   void clear_cell(int index);
+  void lower_cell(int index);
   void paint(int column, int row);
   void mark_stale(int index);
 

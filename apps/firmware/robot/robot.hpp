@@ -36,7 +36,7 @@ struct RobotWiring {
 class FreeRunningRobot {
  public:
   using Type = Controller<RoomProfile, CanopenWheels, Ld06, WitMotion>;
-  static constexpr std::size_t kCalibrationPoints = 240;
+  static constexpr std::size_t kCalibrationPoints = 360;
 
   /// Everything referred to outlives the robot.
   explicit FreeRunningRobot(const RobotWiring& wiring);

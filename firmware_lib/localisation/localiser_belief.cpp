@@ -7,6 +7,7 @@
 #include <array>
 #include <span>
 
+#include "cell_error.hpp"
 #include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
@@ -63,48 +64,27 @@ Matrix3f LocaliserCore::motion_covariance(const Pose2d& motion) const {
   return covariance;
 }
 
-/// A wall along a row of cells lies anywhere within it, and all its points err together by what a
-/// cell is wide: the gradient's covariance from that, over the cell's variance, for points of unit
-/// information. Walls of four sides; those oblique to the cells are stairs, which even out. And the
-/// same for all walls together, should they move away from the vehicle.
-LocaliserCore::WallErrors LocaliserCore::wall_errors() const {
+/// Of all points, should the walls move away from the vehicle: the gradient for 1 m and points of
+/// unit information.
+std::array<float, 3> LocaliserCore::receding_gradient() const {
   const PointsView& points = sweep_.points;
-  WallErrors errors;
-  if (points.along_x.size() != points.size()) { return errors; }
+  std::array<float, 3> gradient{};
+  if (points.along_x.size() != points.size()) { return gradient; }
   const SinCos<float> yaw = sin_cos(report_.pose.theta_rad);
-  constexpr float kStep = 1.0F / 127.0F;
   constexpr std::size_t kStride = 2;  // half of the points say as much at half the cost
-  const float per_square = 1.0F / square(config_.uncertainty.aligned_rad);
-  std::array<std::array<float, 3>, 4> sides{};  // in the map: left, right, below, above
-  std::array<float, 3> outward{};
+  constexpr float kStep = static_cast<float>(kStride) / 127.0F;
   for (std::size_t k = 0; k < points.size(); k += kStride) {
     const float x = kStep * static_cast<float>(points.along_x[k]);
     const float y = kStep * static_cast<float>(points.along_y[k]);
-    if (x == 0.0F && y == 0.0F) { continue; }
-    const float along_x = yaw.cosine * x - yaw.sine * y;
-    const float along_y = yaw.sine * x + yaw.cosine * y;
-    const float arm_x = yaw.cosine * points.x_m[k] - yaw.sine * points.y_m[k];
-    const float arm_y = yaw.sine * points.x_m[k] + yaw.cosine * points.y_m[k];
-    const bool upright = square(along_x) < square(along_y);
-    const float oblique = 1.0F + square(upright ? along_x : along_y) * per_square;
-    const float weight = static_cast<float>(kStride) / oblique;
-    // The normal, towards growing x of upright walls, y of others.
-    const float turned = (upright ? along_y : -along_x) < 0.0F ? -weight : weight;
-    const float normal_x = turned * along_y;
-    const float normal_y = -turned * along_x;
-    std::array<float, 3>& side =
-        upright ? sides[arm_x < 0.0F ? 0 : 1] : sides[arm_y < 0.0F ? 2 : 3];
-    const float arm = normal_x * arm_x + normal_y * arm_y;
-    const float outwards = arm < 0.0F ? -oblique : oblique;
-    const std::array<float, 3> gradient{normal_x, normal_y, normal_y * arm_x - normal_x * arm_y};
-    for (std::size_t i = 0; i < 3; ++i) {
-      side[i] += gradient[i];
-      outward[i] += outwards * gradient[i];
-    }
+    // Across the surface, outwards, in base; theta is the same in the axes of the map.
+    const float outwards = points.y_m[k] * x - points.x_m[k] * y < 0.0F ? -1.0F : 1.0F;
+    const float normal_x = -outwards * y;
+    const float normal_y = outwards * x;
+    gradient[0] += yaw.cosine * normal_x - yaw.sine * normal_y;
+    gradient[1] += yaw.sine * normal_x + yaw.cosine * normal_y;
+    gradient[2] += normal_y * points.x_m[k] - normal_x * points.y_m[k];
   }
-  for (const std::array<float, 3>& side : sides) { add_square(side, errors.aligned); }
-  add_square(outward, errors.receding);
-  return errors;
+  return gradient;
 }
 
 /// The match weighs prediction and scan by their informations: of the prediction's error `kept`
@@ -125,16 +105,19 @@ void LocaliserCore::update_uncertainty() {
   Matrix3f scan_share = Matrix3f::identity();
   for (std::size_t i = 0; i < 9; ++i) { scan_share.elements[i] -= kept.elements[i]; }
   const float points = static_cast<float>(std::max(1, report_.points));
-  const float factor = config.residual_factor * report_.residual_variance_m2 /
-                       square(config_.fine.sigma_m) *
-                       std::min(1.0F, config_.fine.effective_points / points);
+  // Of a point on a wall that is sharp in the field.
+  const float information =
+      std::min(1.0F, config_.fine.effective_points / points) / square(config_.fine.sigma_m);
+  const float factor = config.residual_factor * report_.residual_variance_m2 * information;
   const Matrix3f share = product(scan_share, fused);
   const Matrix3f scan = scaled(sum(share, transpose(share)), 0.5F * factor);
 
-  const float cell_variance = square(fine_.config().cell_m) / 12.0F;
-  const float unit = (report_.scan_information(0, 0) + report_.scan_information(1, 1)) / points;
-  const WallErrors walls = wall_errors();
-  const Matrix3f stairs = propagate(fused, scaled(walls.aligned, unit * unit * cell_variance));
+  // The walls of a given map and of one that this match founds; later the map is what it is.
+  Matrix3f cells{};
+  if (localises_only_ || counters_.matched == 1) {
+    const Matrix3f gradients = cell_error(sweep_.points, report_.pose, fine_.config().cell_m);
+    cells = propagate(share, scaled(gradients, square(information)));
+  }
 
   if (!localises_only_) { in_map_.start({}); }
   in_map_.add(config.odometry, step);
@@ -146,7 +129,7 @@ void LocaliserCore::update_uncertainty() {
   }
   in_map_.correct(kept, scan);
   if (localises_only_) {
-    in_map_error_ = stairs;
+    in_map_error_ = cells;
     return;
   }
 
@@ -154,10 +137,12 @@ void LocaliserCore::update_uncertainty() {
   const float way_m = hypotenuse(step.motion.x_m, step.motion.y_m);
   const float added =
       (counters_.matched == 1 ? config.founding_factor : 0.0F) + config.renewal_per_m * way_m;
-  const float receding = square(unit * config.receding_m) * way_m;
+  const float unit = (report_.scan_information(0, 0) + report_.scan_information(1, 1)) / points;
+  Matrix3f receding{};
+  add_square(receding_gradient(), receding);
+  const float receded = square(unit * config.receding_m) * way_m;
   drift_.correct(Matrix3f::identity(),
-                 sum(scaled(scan, added), propagate(fused, scaled(walls.receding, receding))));
-  if (counters_.matched == 1) { drift_.correct(Matrix3f::identity(), stairs); }
+                 sum(sum(scaled(scan, added), cells), propagate(fused, scaled(receding, receded))));
 }
 
 /// Points in cells that nobody has seen yet tell neither for nor against the pose; those in cells

@@ -18,14 +18,23 @@ void MotionUncertainty::add(const OdometryNoise& noise, const OdometryStep& step
   const float along_x = distance_m > 0.0F ? x_m / distance_m : yaw.cosine;
   const float along_y = distance_m > 0.0F ? y_m / distance_m : yaw.sine;
 
+  // The variance after a way s is walk^2 s^2 / (s + persistence): this step's share of it.
+  const float before_m = way_m_;
+  way_m_ += distance_m;
+  const float persists_m = noise.walk_persists_m;
+  const auto variance_m = [persists_m](float way_m) {
+    return way_m > 0.0F ? way_m * (way_m / (way_m + persists_m)) : 0.0F;
+  };
+  const float walked_m = variance_m(way_m_) - variance_m(before_m);
+
   // Columns: along the way, across it, and the heading, which errs half-way.
   const Matrix3f ways{{along_x, -along_y, -0.5F * y_m,  //
                        along_y, along_x, 0.5F * x_m,    //
                        0.0F, 0.0F, 1.0F}};
   const Matrix3f entering = product(kept, ways);
   const Matrix3f wanders = Matrix3f::diagonal(
-      noise.walk_m * noise.walk_m * distance_m, noise.sideways_m * noise.sideways_m * turn_rad,
-      noise.heading_walk_rad * noise.heading_walk_rad * distance_m);
+      noise.walk_m * noise.walk_m * walked_m, noise.sideways_m * noise.sideways_m * turn_rad,
+      noise.heading_walk_rad * noise.heading_walk_rad * walked_m);
   const Matrix3f carried{{1.0F, 0.0F, -y_m,  //
                           0.0F, 1.0F, x_m,   //
                           0.0F, 0.0F, 1.0F}};

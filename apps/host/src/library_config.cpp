@@ -98,13 +98,13 @@ void read_surface(ConfigFile& file, const std::string& section, SurfaceConfig& s
 
 void read_uncertainty(ConfigFile& file, const std::string& section, UncertaintyConfig& config) {
   file.read(section, "max_condition", config.max_condition);
-  file.read(section, "aligned_rad", config.aligned_rad);
   file.read(section, "residual_factor", config.residual_factor);
   file.read(section, "founding_factor", config.founding_factor);
   file.read(section, "renewal_per_m", config.renewal_per_m);
   file.read(section, "receding_m", config.receding_m);
   OdometryNoise& odometry = config.odometry;
   file.read(section + ".odometry", "walk_m", odometry.walk_m);
+  file.read(section + ".odometry", "walk_persists_m", odometry.walk_persists_m);
   file.read(section + ".odometry", "heading_walk_rad", odometry.heading_walk_rad);
   file.read(section + ".odometry", "sideways_m", odometry.sideways_m);
   file.read(section + ".odometry", "scale", odometry.scale);

@@ -11,6 +11,7 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
 #include <memory>
 #include <numbers>
 #include <tuple>
@@ -29,7 +30,10 @@ using test::NeesWorld;
 using TestProfile = RoomProfile;
 
 constexpr double kDistance_m = 10.0;
-constexpr int kDrives = 40;
+constexpr int kDrives = 80;
+constexpr std::uint64_t kSeed = 3001;  // no constant was ever set with a look at these drives
+// Twelve questions are asked at once: 95 % for all of them together is 0.05 / 12 for each.
+constexpr double kNormal = 2.87;
 constexpr std::array kWorldNames{"room",        "office", "corridor",
                                  "single_wall", "circle", "open_space"};
 
@@ -155,6 +159,12 @@ double chi_square(double degrees, double normal) {
   return degrees * std::pow(1.0 - part + normal * std::sqrt(part), 3);
 }
 
+/// Other drives.
+std::uint64_t first_seed() {
+  const char* seed = std::getenv("PICOLO_NEES_SEED");
+  return seed == nullptr ? kSeed : static_cast<std::uint64_t>(std::atoll(seed));
+}
+
 class Nees : public ::testing::TestWithParam<std::tuple<Question, NeesWorld>> {};
 
 TEST_P(Nees, MeanIsWithinTheChiSquareBand) {
@@ -162,8 +172,9 @@ TEST_P(Nees, MeanIsWithinTheChiSquareBand) {
   double mean = 0.0;
   std::array<double, 3> squares{};
   std::array<double, 3> normalised{};
-  for (int i = 1; i <= kDrives; ++i) {
-    const Sample sample = drive(question, world, static_cast<std::uint64_t>(i));
+  const std::uint64_t first = first_seed();
+  for (int i = 0; i < kDrives; ++i) {
+    const Sample sample = drive(question, world, first + static_cast<std::uint64_t>(i));
     mean += sample.nees / kDrives;
     for (std::size_t k = 0; k < 3; ++k) {
       const double share = sample.error[k] / sample.sigma[k];
@@ -171,8 +182,8 @@ TEST_P(Nees, MeanIsWithinTheChiSquareBand) {
       normalised[k] += share * share / kDrives;
     }
   }
-  const double low = chi_square(3.0 * kDrives, -1.96) / kDrives;
-  const double high = chi_square(3.0 * kDrives, 1.96) / kDrives;
+  const double low = chi_square(3.0 * kDrives, -kNormal) / kDrives;
+  const double high = chi_square(3.0 * kDrives, kNormal) / kDrives;
   std::printf(
       "| %-11s | %-11s | %5.2f | %.2f .. %.2f | %6.1f mm %6.1f mm %6.2f mrad | %.2f %.2f %.2f |\n",
       question == Question::in_true_map ? "in true map" : "over 10 m",

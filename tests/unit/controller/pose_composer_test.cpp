@@ -184,6 +184,7 @@ TEST_F(PoseComposerTest, GivenAWayThereAndBackThenWhatWandersHasGrownAndAWrongSc
   config.localiser.uncertainty.odometry = kExactOdometry;
   OdometryNoise& noise = config.localiser.uncertainty.odometry;
   noise.walk_m = 0.01F;
+  noise.walk_persists_m = 0.0F;
   noise.scale = 0.05F;
   PoseComposer made = composer();
   made.correct({.accepted = true, .covariance = Matrix3f::diagonal(1e-4F, 1e-4F, 1e-6F)},

@@ -149,5 +149,64 @@ TEST(Degeneracy, ARoomIsNone) {
   EXPECT_LE(outcome.heading_rad, 0.01);
 }
 
+/// Of the pose across a wall of that angle against the cells, and of its heading, in a map that
+/// knows the wall's cells only; a sweep without noise.
+struct WallSigma {
+  float across_m = 0.0F;
+  float heading_rad = 0.0F;
+};
+WallSigma sigma_beside_wall(double angle_rad) {
+  auto localiser = std::make_unique<Localiser<RoomProfile>>();
+  LocaliserCore& core = localiser->core();
+  RollingMapCore& map = core.restorable_map();
+  map.reset(0.0, 0.0);
+  const GridWindow window = map.window();
+  std::vector<std::int8_t> cells(map.occupancy().size(), map.config().low);
+  const double c = std::cos(angle_rad);
+  const double s = std::sin(angle_rad);
+  const auto cell_m = static_cast<double>(map.config().cell_m);
+  test::Scan scan;
+  for (double along_m = -8.0; along_m < 8.0; along_m += 0.01) {
+    const double x_m = c * along_m - s * 1.5;
+    const double y_m = s * along_m + c * 1.5;
+    const auto column = static_cast<std::size_t>(std::floor(x_m / cell_m) - window.origin_x_cells);
+    const auto row = static_cast<std::size_t>(std::floor(y_m / cell_m) - window.origin_y_cells);
+    cells[row * static_cast<std::size_t>(window.width) + column] = map.config().high;
+  }
+  for (int k = -79; k <= 79; ++k) {
+    const double along_m = 1.5 * std::tan(k * std::numbers::pi / 180.0);
+    scan.x_m.push_back(static_cast<float>(c * along_m - s * 1.5));
+    scan.y_m.push_back(static_cast<float>(s * along_m + c * 1.5));
+  }
+  for (int row = 0; row < window.height; ++row) {
+    map.restore(0, row,
+                std::span{cells}.subspan(static_cast<std::size_t>(row * window.width),
+                                         static_cast<std::size_t>(window.width)));
+  }
+  EXPECT_EQ(core.localise_in_restored_map(), Status::ok);
+  core.set_pose({}, {});
+  UndistortedSweep sweep;
+  sweep.points = scan.view();
+  EXPECT_EQ(core.process(sweep, true), Status::ok);
+  EXPECT_TRUE(core.accepted());
+  const Matrix3f p = core.match_covariance();
+  const auto x = static_cast<float>(-s);
+  const auto y = static_cast<float>(c);
+  return {std::sqrt(x * x * p(0, 0) + 2.0F * x * y * p(0, 1) + y * y * p(1, 1)),
+          std::sqrt(p(2, 2))};
+}
+
+TEST(Degeneracy, AWallThatMeetsItsCellsInTheSameWayAgainAndAgainIsUncertainAsAWhole) {
+  // Lines of cells lie 1 / |(h, k)| cells of 8 cm apart; the wall is anywhere between two.
+  const WallSigma uneven = sigma_beside_wall(0.55);
+  EXPECT_LT(uneven.across_m, 0.004F);
+  EXPECT_NEAR(sigma_beside_wall(0.0).across_m, 0.08 / std::sqrt(12.0), 0.004);
+  const double half_m = sigma_beside_wall(std::atan(0.5)).across_m;
+  EXPECT_GT(half_m, 0.5 * 0.08 / std::sqrt(12.0 * 5.0));
+  EXPECT_LT(half_m, 0.08 / std::sqrt(12.0 * 5.0)) << "interpolation takes some of it";
+  // A step or two in sight turn the vehicle.
+  EXPECT_GT(sigma_beside_wall(0.01).heading_rad, 2.0F * uneven.heading_rad);
+}
+
 }  // namespace
 }  // namespace picolo

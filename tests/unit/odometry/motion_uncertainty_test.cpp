@@ -56,6 +56,7 @@ Matrix3d sampled(const OdometryNoise& noise) {
 TEST(MotionUncertainty, IsThatOfSampledDrives) {
   const OdometryNoise noise{.walk_m = 0.02F,
                             .heading_walk_rad = 0.01F,
+                            .walk_persists_m = 0.0F,
                             .sideways_m = 0.01F,
                             .scale = 0.01F,
                             .heading_per_m_rad = 0.003F,
@@ -87,11 +88,24 @@ TEST(MotionUncertainty, AMeasurementLeavesWhatItDoesNotSee) {
 
 TEST(MotionUncertainty, AStepMayEnterInPart) {
   MotionUncertainty made;
-  made.add({}, {0.0F, {1.0F, 0.0F, 0.0F}, 1.0F}, Matrix3f::diagonal(1.0F, 0.0F, 0.0F));
+  made.add({.walk_persists_m = 0.0F}, {0.0F, {1.0F, 0.0F, 0.0F}, 1.0F},
+           Matrix3f::diagonal(1.0F, 0.0F, 0.0F));
   const Matrix3f covariance = made.covariance();
   EXPECT_NEAR(covariance(0, 0), 0.01 * 0.01 + 0.005 * 0.005, 1e-8);
   EXPECT_EQ(covariance(1, 1), 0.0F);
   EXPECT_EQ(covariance(2, 2), 0.0F);
+}
+
+TEST(MotionUncertainty, ASlipThatLastsErrsAsAWholeOverShortWaysAndWandersOverLongOnes) {
+  const OdometryNoise noise{.walk_m = 0.01F, .walk_persists_m = 0.5F, .scale = 0.0F};
+  const auto along_m2 = [&noise](int steps) {
+    MotionUncertainty made;
+    for (int i = 0; i < steps; ++i) { made.add(noise, {0.0F, {0.01F, 0.0F, 0.0F}, 0.01F}); }
+    return static_cast<double>(made.covariance()(0, 0));
+  };
+  EXPECT_NEAR(along_m2(2) / along_m2(1), 4.0, 0.2);
+  EXPECT_NEAR(along_m2(50), 1e-4 * 0.25, 1e-7) << "half of white noise where it is as long";
+  EXPECT_NEAR(along_m2(4000) / along_m2(2000), 2.0, 0.03);
 }
 
 TEST(OdometryNoise, RefusesNegativeSigmas) {

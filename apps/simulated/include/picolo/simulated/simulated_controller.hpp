@@ -25,7 +25,7 @@ namespace picolo::inline v0 {
                                            .sideways_m = 0.0025F,
                                            .scale = 0.001F,
                                            .heading_per_m_rad = 0.0F,
-                                           .heading_per_s_rad = 0.0007F,
+                                           .heading_per_s_rad = 0.00063F,
                                            .heading_scale = 0.0035F};
   return config;
 }

@@ -78,18 +78,16 @@ struct UncertaintyConfig {
   /// A direction that the scan constrains less than this below its best says nothing of its error:
   /// noise of the normals feigns as much.
   float max_condition = 20.0F;
-  float aligned_rad = 0.09F;  ///< a wall within this of a row of cells errs as a whole
   /// Of a match: the residuals' variance, so often, over the information of all points:
   /// neighbouring beams and the stairs of oblique walls err together.
-  float residual_factor = 0.4F;
+  float residual_factor = 0.28F;
   /// Of a map that one scan has founded, in multiples of a match's covariance, ...
-  float founding_factor = 12.0F;
-  float renewal_per_m = 5.0F;  ///< ... and what each metre adds to it, as the view is renewed
+  float founding_factor = 17.0F;
+  float renewal_per_m = 6.9F;  ///< ... and what each metre adds to it, as the view is renewed
   float receding_m = 0.006F;   ///< walls seen from one side only move away in it: after 1 m
   [[nodiscard]] constexpr bool valid() const {
-    return odometry.valid() && max_condition > 1.0F && aligned_rad > 0.0F &&
-           residual_factor > 0.0F && founding_factor >= 0.0F && renewal_per_m >= 0.0F &&
-           receding_m >= 0.0F;
+    return odometry.valid() && max_condition > 1.0F && residual_factor > 0.0F &&
+           founding_factor >= 0.0F && renewal_per_m >= 0.0F && receding_m >= 0.0F;
   }
 };
 
@@ -264,12 +262,7 @@ class LocaliserCore {
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
   void update_uncertainty();
-  /// Squares of gradients, for points of unit information.
-  struct WallErrors {
-    Matrix3f aligned{};
-    Matrix3f receding{};
-  };
-  [[nodiscard]] WallErrors wall_errors() const;
+  [[nodiscard]] std::array<float, 3> receding_gradient() const;
   void start_map_update();
   void add_points(std::size_t max_points, bool hits);
 

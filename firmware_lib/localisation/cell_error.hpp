@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How far walls may be off because a map knows cells only. Private to localisation.
+#pragma once
+
+#include "picolo/geometry/matrix3.hpp"
+#include "picolo/geometry/pose2.hpp"
+#include "picolo/undistort/undistorter.hpp"
+
+namespace picolo::inline v0 {
+
+/// Covariance of the sum of the points' gradients (x, y, theta about the vehicle, window axes) by
+/// where walls lie in their cells, for points of unit information; m^2.
+///
+/// A wall whose slope is a fraction of small numbers, k/h, meets its cells in the same way again
+/// and again: all its points err together by up to 1 / |(h, k)| of a cell, a saw tooth of its place
+/// across. In waves: each multiple of (h, k) over the cell's size adds
+/// cell^2 / (2 pi^2 |multiple|^2) times the squared sum of the points' gradients, each with the
+/// wave's phase at the point. Walls that cross their cells evenly cancel; stairs a few metres long
+/// turn the sum. Neighbours on a wall, eight at a time, stand for one place.
+/// Cost: O(points), about 55 instructions a point. Context: cycle only.
+[[nodiscard]] Matrix3f cell_error(const PointsView& points, const Pose2f& window_T_base,
+                                  float cell_m);
+
+}  // namespace picolo::inline v0

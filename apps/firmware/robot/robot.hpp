@@ -36,7 +36,8 @@ struct RobotWiring {
 class FreeRunningRobot {
  public:
   using Type = Controller<RoomProfile, CanopenWheels, Ld06, WitMotion>;
-  static constexpr std::size_t kCalibrationPoints = 360;
+  /// With more a slice of the scan match fills the frame of a Cortex-M4F.
+  static constexpr std::size_t kCalibrationPoints = 240;
 
   /// Everything referred to outlives the robot.
   explicit FreeRunningRobot(const RobotWiring& wiring);

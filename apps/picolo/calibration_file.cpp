@@ -4,14 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 #include <numbers>
 #include <vector>
 
 #include "commands/calibrate_files.hpp"
 #include "picolo/calibration/linear_batch.hpp"
 #include "picolo/host/error.hpp"
+#include "picolo/host/files.hpp"
 #include "picolo/host/json.hpp"
 #include "picolo/odometry/differential_drive.hpp"
 #include "picolo/undistort/pose_buffer.hpp"
@@ -106,13 +105,9 @@ void correct_steps(std::vector<Record>& records, const Matrix3d& correction) {
 }  // namespace
 
 CalibrationFile read_calibration(const std::string& path) {
-  std::ifstream stream{path};
-  const std::string text{std::istreambuf_iterator<char>{stream}, {}};
-  const host::Json json = host::Json::parse(text, nullptr, false);
-  if (!json.is_object()) {
-    refuse(path, stream.is_open() ? "is no JSON object" : "cannot be opened",
-           "give the calibration.json that 'picolo calibrate' wrote");
-  }
+  const std::string cure = "give the calibration.json that 'picolo calibrate' wrote";
+  const host::Json json = host::Json::parse(host::read_file(path, cure), nullptr, false);
+  if (!json.is_object()) { refuse(path, "is no JSON object", cure); }
   if (json.contains("refused") && json["refused"].is_string()) {
     refuse(path, "the calibration was refused: " + json["refused"].get<std::string>(),
            "drive what was missing, and calibrate again");

@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -28,11 +27,6 @@ constexpr std::size_t kSector = 4096;
 constexpr std::size_t kGranule = 8;
 constexpr std::size_t kPieces = 1024;
 constexpr double kRounding_m = 1e-6;  // of decimals in a YAML file
-
-std::string content_of(const std::filesystem::path& path) {
-  std::ifstream file{path, std::ios::binary};
-  return {std::istreambuf_iterator<char>{file}, {}};
-}
 
 bool is_store(const std::string& bytes) {
   return bytes.size() >= 2 * kSector && bytes.size() % (2 * kSector) == 0 &&
@@ -78,7 +72,7 @@ MapCell cell_over(const OccupancyImage& image, const Span& columns, const Span& 
 }  // namespace
 
 GivenMap::GivenMap(const std::filesystem::path& path) : path_{path} {
-  if (is_store(content_of(path))) { return; }
+  if (is_store(host::read_file(path))) { return; }
   image_ = crop(host::read_map(path), 0);
   if (std::ranges::find(image_->cells, MapCell::occupied) == image_->cells.end()) {
     throw UserError{ExitCode::input, path.string(), "its map has no occupied cell",
@@ -132,7 +126,7 @@ Pose2d GivenMap::restore_image(RollingMapCore& map, const char* profile) const {
 }
 
 Pose2d GivenMap::restore_store(RollingMapCore& map, const char* profile) const {
-  const std::string bytes = content_of(path_);
+  const std::string bytes = host::read_file(path_);
   std::vector<std::uint8_t> memory(bytes.size());
   sim::SimByteStore medium{memory, kSector, kGranule};
   std::ranges::copy(bytes, memory.begin());

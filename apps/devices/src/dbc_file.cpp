@@ -225,7 +225,9 @@ class Parser {
 void read_into(const std::filesystem::path& path, DbcFile& all, std::set<std::string>& seen) {
   if (!seen.insert(path.filename().string()).second) { return; }
   std::ifstream stream{path, std::ios::binary};
-  if (!stream) { throw std::invalid_argument{path.string() + ": cannot be read; check the name"}; }
+  if (!stream || std::filesystem::is_directory(path)) {
+    throw std::invalid_argument{path.string() + ": cannot be read; check the name"};
+  }
   const std::string text{std::istreambuf_iterator<char>{stream}, {}};
   std::vector<std::string> imports;
   const DbcFile file = parse_dbc(text, path.string(), &imports);

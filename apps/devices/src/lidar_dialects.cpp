@@ -7,6 +7,7 @@
 #include "dialect.hpp"
 #include "picolo/core/crc.hpp"
 #include "picolo/drivers/common/turn_cutter.hpp"
+#include "ultra_capsules.hpp"
 
 namespace picolo::inline v0::devices {
 namespace {
@@ -37,7 +38,8 @@ class RplidarDialect final : public CommandedLidar {
  public:
   RplidarDialect(SerialPort& ld06, const std::string& mode)
       : CommandedLidar(ld06),
-        capsules_(mode == "express" || mode == "dense"),
+        capsules_(mode == "express" || mode == "ultra" || mode == "dense"),
+        ultra_(mode == "ultra"),
         dense_(mode == "dense") {}
 
  private:
@@ -62,10 +64,15 @@ class RplidarDialect final : public CommandedLidar {
     return bytes;
   }
 
-  /// A capsule has 32 or 40 points, a packet 12: now and then one is full.
+  /// A capsule has 32, 96 or 40 points, a packet 12: now and then one is full.
   Bytes capsules(const Ld06Packet& packet) {
     Bytes full;
     for (std::size_t i = 0; i < packet.points.size(); ++i) {
+      if (ultra_) {
+        Bytes capsule = ultra_capsules_.push(angle_q6(packet, i), packet.points[i].distance_mm);
+        if (!capsule.empty()) { full = std::move(capsule); }
+        continue;
+      }
       if (points_mm_.empty()) { start_q6_ = angle_q6(packet, i); }
       points_mm_.push_back(packet.points[i].distance_mm);
       if (points_mm_.size() < (dense_ ? 40 : 32)) { continue; }
@@ -101,15 +108,19 @@ class RplidarDialect final : public CommandedLidar {
       starts_ = true;
     }
     if (letter == 0x82 && capsules_) {
-      answers_.push_back(
-          {0xA5, 0x5A, 0x54, 0, 0, 0x40, dense_ ? std::uint8_t{0x85} : std::uint8_t{0x82}});
+      Bytes descriptor = {0xA5, 0x5A, 0x54, 0, 0, 0x40, 0x82};
+      if (ultra_) { descriptor = {0xA5, 0x5A, 0x84, 0, 0, 0x40, 0x84}; }
+      if (dense_) { descriptor.back() = 0x85; }
+      answers_.push_back(descriptor);
       starts_ = true;
       points_mm_.clear();
     }
   }
 
   const bool capsules_;
+  const bool ultra_;
   const bool dense_;
+  UltraCapsules ultra_capsules_;
   TurnCutter cutter_{360 * 64};
   std::uint32_t start_q6_ = 0;
   std::vector<unsigned> points_mm_;
@@ -157,7 +168,7 @@ class YdlidarDialect final : public CommandedLidar {
 
 void refuse_dialect(const std::string& name) {
   throw std::invalid_argument{"the simulated vehicle cannot speak '" + name +
-                              "'; lidars: ld06, rplidar (all but ultra), ydlidar, scip; IMUs: "
+                              "'; lidars: ld06, rplidar, ydlidar, scip; IMUs: "
                               "witmotion, xsens, vectornav, bno08x-rvc; wheels: canopen, odrive, "
                               "vesc, dbc"};
 }
@@ -165,7 +176,7 @@ void refuse_dialect(const std::string& name) {
 SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06,
                                      const std::string& mode) {
   if (name == "ld06") { return make_port<PassingLine>(ld06); }
-  if (name == "rplidar" && mode != "ultra") { return make_port<RplidarDialect>(ld06, mode); }
+  if (name == "rplidar") { return make_port<RplidarDialect>(ld06, mode); }
   if (name == "ydlidar") { return make_port<YdlidarDialect>(ld06); }
   if (name == "scip") { return make_scip_dialect(ld06); }
   refuse_dialect(mode.empty() ? name : name + " " + mode);

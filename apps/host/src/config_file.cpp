@@ -5,24 +5,18 @@
 #include <fmt/format.h>
 
 #include <cstdint>
-#include <fstream>
 #include <limits>
-#include <sstream>
 
 #include "picolo/host/error.hpp"
+#include "picolo/host/files.hpp"
 
 namespace picolo::host {
 
 ConfigFile::ConfigFile(const std::filesystem::path& path) : name_{path.string()} {
   if (path.empty()) { return; }
-  std::ifstream file{path};
-  std::ostringstream text;
-  text << file.rdbuf();
-  if (!file) {
-    throw UserError{ExitCode::input, name_, "cannot be read", "check the path given to --config"};
-  }
+  const std::string text = read_file(path, "check the path given to --config");
   try {
-    root_ = toml::parse(text.str(), name_);
+    root_ = toml::parse(text, name_);
   } catch (const toml::parse_error& error) {
     throw UserError{ExitCode::usage, fmt::format("{}:{}", name_, error.source().begin.line),
                     std::string{error.description()}, "the file must be valid TOML"};

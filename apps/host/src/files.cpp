@@ -40,13 +40,17 @@ void write_file(const std::filesystem::path& path, std::string_view content) {
   }
 }
 
-std::string read_file(const std::filesystem::path& path) {
-  std::ifstream file{path, std::ios::binary};
-  std::string content{std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
-  if (!file) {
-    throw UserError{ExitCode::input, path.string(), "cannot be read", "check the path"};
+std::string read_file(const std::filesystem::path& path, const std::string& cure) {
+  std::error_code none;
+  if (std::filesystem::is_directory(path, none)) {
+    throw UserError{ExitCode::input, path.string(), "is a folder", cure};
   }
-  return content;
+  std::ifstream file{path, std::ios::binary};
+  if (!file) {
+    throw UserError{ExitCode::input, path.string(),
+                    std::string{"cannot be read: "} + std::strerror(errno), cure};
+  }
+  return {std::istreambuf_iterator<char>{file}, std::istreambuf_iterator<char>{}};
 }
 
 }  // namespace picolo::host

@@ -5,13 +5,10 @@
 #include <fmt/format.h>
 
 #include <cctype>
-#include <cerrno>
-#include <cstring>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "picolo/host/error.hpp"
+#include "picolo/host/files.hpp"
 
 namespace picolo::host {
 namespace {
@@ -71,13 +68,7 @@ class PgmText {
 }  // namespace
 
 GreyImage read_pgm(const std::filesystem::path& path) {
-  std::ifstream file{path, std::ios::binary};
-  if (!file) {
-    throw UserError{ExitCode::input, path.string(),
-                    std::string{"cannot be read: "} + std::strerror(errno),
-                    "the YAML file names its image relative to itself"};
-  }
-  PgmText text{path.string(), {std::istreambuf_iterator<char>{file}, {}}};
+  PgmText text{path.string(), read_file(path, "the YAML file names its image relative to itself")};
   const char kind = text.kind();
   GreyImage image;
   image.width = text.number("width", kMaxSide);

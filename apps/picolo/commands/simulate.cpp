@@ -269,7 +269,7 @@ void add_simulate(CLI::App& app, Action& action) {
       "wheels\n"
       "two CiA 402 drives, nodes 1 and 2. It can have every other driver of picolo run too "
       "(rplidar in\n"
-      "any mode but ultra; ydlidar as a T-mini): give both the same file. Encoders count 4096 a\n"
+      "any mode; ydlidar as a T-mini): give both the same file. Encoders count 4096 a\n"
       "turn; vesc: 6 * pole_pairs; dbc: the two words of 0x205 that wrap at 16384 (comma body).\n"
       "True poses are in the controller's map frame, if that started while the vehicle stood; "
       "stamps\n"

@@ -103,6 +103,8 @@ TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
        {Choice{"canopen", "ld06", "witmotion", 0.15}, Choice{"odrive", "rplidar", "xsens", 0.15},
         Choice{"vesc", "ydlidar", "bno08x-rvc", 0.25, "tmini"},
         Choice{"dbc", "rplidar", "vectornav", 0.15, "dense"},
+        Choice{"odrive", "rplidar", "xsens", 0.15, "ultra"},
+        Choice{"odrive", "rplidar", "witmotion", 0.15, "express"},
         Choice{"canopen", "scip", "witmotion", 0.15}}) {
     drive(choice);
   }
@@ -183,6 +185,7 @@ TEST(SimulatedDevices, GivenLateReadingThenSweepsNeverOverlapAndHaveNoMoreJitter
   for (const auto& [name, mode] : {std::pair{"ld06", ""},
                                    {"rplidar", ""},
                                    {"rplidar", "express"},
+                                   {"rplidar", "ultra"},
                                    {"rplidar", "dense"},
                                    {"ydlidar", ""},
                                    {"scip", ""}}) {
@@ -211,7 +214,7 @@ TEST(SimulatedDevices, GivenLateReadingThenSweepsNeverOverlapAndHaveNoMoreJitter
 TEST(SimulatedDevices, GivenUnknownNamesThenTheMessageNamesWhatThereIs) {
   sim::SimClock clock{Timestamp{}};
   sim::SimSerialPort port{clock, 115'200};
-  EXPECT_THROW(static_cast<void>(devices::make_lidar_dialect("rplidar", port, "ultra")),
+  EXPECT_THROW(static_cast<void>(devices::make_lidar_dialect("sonar", port)),
                std::invalid_argument);
   try {
     static_cast<void>(devices::make_lidar("sick", port));

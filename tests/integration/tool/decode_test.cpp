@@ -130,6 +130,8 @@ TEST(ToolDecode, GivenWhatItCannotDecodeThenItSaysWhyAndHow) {
   EXPECT_EQ(run_tool(folder, {"decode", "dbc:none.dbc", "noise.bin"}).exit_code, 3);
   EXPECT_EQ(run_tool(folder, {"decode", "ld06", "missing.bin"}).exit_code, 3);
   EXPECT_EQ(run_tool(folder, {"decode", "ld06", "."}).exit_code, 3);
+  EXPECT_EQ(run_tool(folder, {"decode", "dbc:.", "noise.bin"}).exit_code, 3);
+  EXPECT_NE(run_tool(folder, {"demo", "--config", "."}).err.find("is a folder"), std::string::npos);
   folder.write("empty.bin", "");
   EXPECT_NE(run_tool(folder, {"decode", "vesc", "empty.bin"}).err.find("empty.bin: is empty"),
             std::string::npos);

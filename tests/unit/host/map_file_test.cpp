@@ -166,6 +166,7 @@ INSTANTIATE_TEST_SUITE_P(
         BadMap{"image: map.pgm\nresolution: 1\norigin: [0, 0, 0.5]\n", kGoodPgm, "yaw of 0"},
         BadMap{"image: map.pgm\nresolution: 1\norigin: [0]\n", kGoodPgm, "[x, y, yaw]"},
         BadMap{"image: other.pgm\nresolution: 1\norigin: [0, 0, 0]\n", kGoodPgm, "cannot be read"},
+        BadMap{"image: .\nresolution: 1\norigin: [0, 0, 0]\n", kGoodPgm, "is a folder"},
         BadMap{"image: map.pgm\nresolution: 1\norigin: [0, 0, 0]\nmode: odd\n", kGoodPgm,
                "trinary, scale or raw"},
         BadMap{"just words\n", kGoodPgm, "map.yaml:1"},

@@ -20,7 +20,7 @@ namespace picolo::inline v0::devices {
 using SerialPortPointer = std::unique_ptr<SerialPort, void (*)(SerialPort*)>;
 using CanBusPointer = std::unique_ptr<CanBus, void (*)(CanBus*)>;
 
-/// rplidar (every mode but ultra), ydlidar (three bytes a sample,
+/// rplidar (in each of its modes), ydlidar (three bytes a sample,
 /// optics of the T-mini) and scip (338 of 450 steps a turn) obey their commands: start, stop, info,
 /// health, parameters. ld06 passes through. Throws std::invalid_argument for others.
 [[nodiscard]] SerialPortPointer make_lidar_dialect(const std::string& name, SerialPort& ld06,

@@ -17,7 +17,9 @@ void make_folder(const std::filesystem::path& path);
 /// writing fails (a full disk).
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// The file's content. Throws UserError (input).
-[[nodiscard]] std::string read_file(const std::filesystem::path& path);
+/// The file's content. Throws UserError (input) with this cure: also for a folder, which a stream
+/// would open, and then throw or be empty.
+[[nodiscard]] std::string read_file(const std::filesystem::path& path,
+                                    const std::string& cure = "check the path");
 
 }  // namespace picolo::host

@@ -93,7 +93,9 @@ struct UncertaintyConfig {
 
 struct LocaliserConfig {
   MapConfig map{};  ///< of the fine grid; cell size and field radius come from the profile
-  GaussNewtonConfig fine{.max_iterations = 10};  ///< and so the slowest match, see docs/matching.md
+  /// The iterations bound the slowest match (docs/matching.md). With odometry to fall back on, more
+  /// directions may be left to it than by a matcher alone.
+  GaussNewtonConfig fine{.max_iterations = 10, .max_condition = 40.0F};
   PredictionNoise noise{};
   SearchConfig search{};
   RelocaliseConfig relocalise{};

@@ -30,7 +30,7 @@ struct GaussNewtonConfig {
   /// of the eigenvalues is the mean square of the normals' share along the weakest direction;
   /// normals that err by 0.05 rad feign 1 / 400, those of a circle with stairs 1 / 100, with noise
   /// now and then 1 / 50.
-  float max_condition = 40.0F;
+  float max_condition = 60.0F;
   float sigma_m = 0.05F;  ///< of one residual
   /// Neighbouring beams are not independent: information counts at most this many.
   float effective_points = 100.0F;

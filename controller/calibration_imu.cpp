@@ -15,6 +15,7 @@ void CalibrationRoutine::feel(double stamp_s, const ImuSample& sample) {
   if (phase_ != CalibrationPhase::collecting || !(report_.drive.track_m > 0.0)) {
     felt_ = {};
     felt_before_ = {};
+    felt_due_ = {};
     return;
   }
   if (felt_.samples == 0.0) { felt_.begin_s = stamp_s; }
@@ -23,7 +24,7 @@ void CalibrationRoutine::feel(double stamp_s, const ImuSample& sample) {
   felt_.y_mps2 += static_cast<double>(sample.acceleration_mps2[1]);
   felt_.samples += 1.0;
   if (felt_.end_s - felt_.begin_s < kWindow_s) { return; }
-  close_felt();
+  felt_due_ = felt_before_;
   felt_before_ = felt_;
   felt_ = {};
 }
@@ -44,16 +45,18 @@ bool CalibrationRoutine::speed_at(double stamp_s, BaseSpeed& speed) const {
   return true;
 }
 
-void CalibrationRoutine::close_felt() {
-  const FeltWindow& w = felt_before_;
-  if (w.samples == 0.0) { return; }
+/// A slice; false when no window waits.
+bool CalibrationRoutine::use_felt() {
+  const FeltWindow w = felt_due_;
+  if (w.samples == 0.0) { return false; }
+  felt_due_ = {};
   const double age_s = gyro_offset_report_.offset_s.value;
   BaseSpeed begin;
   BaseSpeed middle;
   BaseSpeed end;
   if (!speed_at(w.begin_s - age_s, begin) ||
       !speed_at(0.5 * (w.begin_s + w.end_s) - age_s, middle) || !speed_at(w.end_s - age_s, end)) {
-    return;
+    return true;
   }
   const double length_s = w.end_s - w.begin_s;
   const auto simpson = [](double a, double b, double c) { return (a + 4.0 * b + c) / 6.0; };
@@ -67,6 +70,7 @@ void CalibrationRoutine::close_felt() {
                                 .omega2_radps2 = simpson(begin.omega_radps * begin.omega_radps,
                                                          middle.omega_radps * middle.omega_radps,
                                                          end.omega_radps * end.omega_radps)}));
+  return true;
 }
 
 }  // namespace picolo::inline v0

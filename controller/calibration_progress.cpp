@@ -60,16 +60,18 @@ void CalibrationRoutine::set(Parameter parameter, double share, RefusalReason re
   lacks_[index] = percent_[index] == 100 ? RefusalReason::none : reason;
 }
 
-/// One look each time, so that each costs little.
+/// One look each time, in pieces, so that each costs little.
 void CalibrationRoutine::look(Timestamp now) {
-  look_ = (look_ + 1) % 4;
   switch (look_) {
-    case 0: static_cast<void>(joint_.solve(report_, false)); break;
-    case 1: look_at_offset(); break;
+    case 0:
+      if (!solved_joint()) { return; }
+      break;
+    case 1:
+      if (!solved(lidar_clock_.core(), offset_report_)) { return; }
+      if (!offset_report_.refusal) { follow_offset(); }
+      break;
     case 2:
-      static_cast<void>(gyro_clock_.core().solve_nearby(gyro_offset_report_));
-      static_cast<void>(gyro_.solve(gyro_report_));
-      static_cast<void>(mount_.solve(mount_report_));
+      if (!looked_at_gyro()) { return; }
       break;
     default: look_at_progress(); break;
   }
@@ -81,8 +83,41 @@ void CalibrationRoutine::look(Timestamp now) {
   }
 }
 
-void CalibrationRoutine::look_at_offset() {
-  if (!is_ok(lidar_clock_.core().solve_nearby(offset_report_))) { return; }
+/// A slice of the joint solution; true after the last.
+bool CalibrationRoutine::solved_joint() {
+  switch (solving_) {
+    case 0: solving_ = is_ok(joint_.solve_drive(report_)) ? 1 : 0; break;
+    case 1:
+      joint_.solve_information(report_);
+      solving_ = 2;
+      break;
+    default:
+      static_cast<void>(joint_.solve_deviations(report_, false));
+      solving_ = 0;
+      break;
+  }
+  return solving_ == 0;
+}
+
+/// The same of a clock.
+bool CalibrationRoutine::solved(TimeOffsetCore& clock, TimeOffsetReport& report) {
+  if (solving_ == 0) { clock.begin_solution(); }
+  solving_ = clock.solve_slice(config_.fits_per_step, report) ? 0 : 1;
+  return solving_ == 0;
+}
+
+bool CalibrationRoutine::looked_at_gyro() {
+  if (piece_ == 0) {
+    if (solved(gyro_clock_.core(), gyro_offset_report_)) { piece_ = 1; }
+    return false;
+  }
+  static_cast<void>(gyro_.solve(gyro_report_));
+  static_cast<void>(mount_.solve(mount_report_));
+  piece_ = 0;
+  return true;
+}
+
+void CalibrationRoutine::follow_offset() {
   const Estimate& offset = offset_report_.offset_s;
   const double change = magnitude(offset.value - used_offset_s_);
   if (change <= std::max(config_.max_offset_change_s, 4.0 * offset.std) ||
@@ -196,16 +231,26 @@ DriveAdvice CalibrationRoutine::choose_advice() const {
   return by_turning ? turn : DriveAdvice::drive_straight;
 }
 
+/// Everything once more and from all of the data, so that refusal and progress tell the same; a
+/// piece in each slice.
 void CalibrationRoutine::check() {
-  // Everything once more and from all of the data, so that refusal and progress tell the same.
-  const bool joint_done = is_ok(joint_.solve(report_, false));
-  const bool offset_done = is_ok(lidar_clock_.core().solve_nearby(offset_report_));
-  static_cast<void>(gyro_clock_.core().solve_nearby(gyro_offset_report_));
-  static_cast<void>(gyro_.solve(gyro_report_));
-  look_at_progress();
-  if (!joint_done) {
+  bool done = true;
+  switch (piece_) {
+    case 0: done = solved_joint(); break;
+    case 1: done = solved(lidar_clock_.core(), offset_report_); break;
+    case 2: done = solved(gyro_clock_.core(), gyro_offset_report_); break;
+    case 3: static_cast<void>(gyro_.solve(gyro_report_)); break;
+    case 4: look_at_progress(); break;
+    default: judge_all(); return;
+  }
+  if (done) { ++piece_; }
+}
+
+void CalibrationRoutine::judge_all() {
+  piece_ = 0;
+  if (report_.refusal) {
     refuse(report_.refusal);
-  } else if (!offset_done) {
+  } else if (offset_report_.refusal) {
     refuse(offset_report_.refusal);
   } else if (magnitude(offset_report_.offset_s.value - used_offset_s_) >
              std::max(config_.max_offset_change_s, 4.0 * offset_report_.offset_s.std)) {

@@ -43,6 +43,7 @@ Status CalibrationRoutine::start(Timestamp now) {
   mount_report_ = {};
   felt_ = {};
   felt_before_ = {};
+  felt_due_ = {};
   record_ = {};
   held_ = 0;
   percent_.fill(0);
@@ -51,6 +52,9 @@ Status CalibrationRoutine::start(Timestamp now) {
   origin_ = now;
   next_look_ = now;
   look_ = 0;
+  piece_ = 0;
+  solving_ = 0;
+  taken_ = {};
   finishing_ = false;
   restarts_ = 0;
   used_offset_s_ = config_.initial_time_offset_s;
@@ -154,7 +158,7 @@ void CalibrationRoutine::add_scan(Timestamp begin, Timestamp end, const Pose2d& 
 
 /// One slice of what the samples ask for; false when nothing is due.
 bool CalibrationRoutine::work() {
-  return joint_.step() || lidar_clock_.core().step(config_.lags_per_step) ||
+  return use_felt() || joint_.step() || lidar_clock_.core().step(config_.lags_per_step) ||
          gyro_clock_.core().step(config_.lags_per_step) || take_scan();
 }
 
@@ -168,7 +172,12 @@ bool CalibrationRoutine::waits_for_gyro(const Scan& scan) const {
   return lidar_clock_.core().wheels_at(scan.end_s + kPatience_s, later) == Status::not_ready;
 }
 
+/// A slice; false when no scan can be used.
 bool CalibrationRoutine::take_scan() {
+  if (taken_.next != TakenScan::Part::none) {
+    use_taken();
+    return true;
+  }
   if (held_ == 0) { return false; }
   const Scan scan = waiting_[first_];
   WheelAngles begin;
@@ -188,9 +197,18 @@ bool CalibrationRoutine::take_scan() {
   MotionSample sample{duration_s, (end.left_rad - begin.left_rad) / duration_s,
                       (end.right_rad - begin.right_rad) / duration_s, scan.motion};
   take_out_bends(scan, sample);
-  use(sample);
-  learn_gyro(scan);
+  taken_ = {TakenScan::Part::sample, scan, sample};
   return true;
+}
+
+void CalibrationRoutine::use_taken() {
+  if (taken_.next == TakenScan::Part::sample) {
+    taken_.next = TakenScan::Part::turn;
+    use(taken_.sample);
+    return;
+  }
+  taken_.next = TakenScan::Part::none;
+  learn_gyro(taken_.scan);
 }
 
 /// The estimator takes the wheels' rates for constant between two scans. While they change, the way
@@ -290,6 +308,10 @@ void CalibrationRoutine::wait_for_standstill(Timestamp now) {
 }
 
 bool CalibrationRoutine::collect(Timestamp now) {
+  if (piece_ > 0 || solving_ > 0) {
+    look(now);
+    return true;
+  }
   if (work()) { return true; }
   const bool out_of_time = now - entered_ > config_.max_collect;
   if (finishing_ || out_of_time || complete()) {
@@ -299,6 +321,7 @@ bool CalibrationRoutine::collect(Timestamp now) {
   }
   if (now < next_look_) { return false; }
   next_look_ += kLook;
+  look_ = (look_ + 1) % 4;
   look(now);
   return true;
 }

@@ -130,6 +130,13 @@ Status CommandDesk::map_job_slice() {
   return Status::not_ready;
 }
 
+bool CommandDesk::serving() const {
+  if (services_.calibration == nullptr) { return false; }
+  const CalibrationPhase phase = services_.calibration->progress().phase;
+  return phase != CalibrationPhase::idle && phase != CalibrationPhase::done &&
+         phase != CalibrationPhase::refused && phase != CalibrationPhase::aborted;
+}
+
 void CommandDesk::work(Timestamp now) {
   if (services_.calibration != nullptr) { services_.calibration->step(now); }
   if (map_job_phase_ == MapJobPhase::none || !pipeline_.idle()) { return; }

@@ -58,7 +58,10 @@ void OnboardCalibrationCore::step(Timestamp now) {
   if (!routine_.running()) { return; }
   now_ = now;
   for (std::size_t k = 0; k < config_.slices; ++k) {
-    if (!scans_.step()) { static_cast<void>(routine_.step(now)); }
+    // By turns, so that neither starves the other; an idle one leaves its turn to the other.
+    routine_first_ = !routine_first_;
+    static_cast<void>(routine_first_ ? routine_.step(now) || scans_.step()
+                                     : scans_.step() || routine_.step(now));
     ScanDisplacement seen;
     if (scans_.take(seen)) { routine_.add_scan(seen.begin, seen.end, seen.motion); }
   }

@@ -38,7 +38,8 @@ Pipeline::Pipeline(const ControllerConfig& config, const PipelineStorage& storag
       dead_reckoning_(config.dead_reckoning),
       poses_(pose_storage_),
       sweeps_(config.sweeps, storage.first_sweep, storage.second_sweep),
-      undistorter_(storage.x_m, storage.y_m) {
+      undistorter_(storage.x_m, storage.y_m),
+      begins_apart_(config.work.one_stage_a_frame) {
   const float heading_rad = config.set_pose.start_heading_rad;
   localiser_.set_pose(config.start_map_T_base, Pose2d{},
                       Matrix3f::diagonal(0.0F, 0.0F, heading_rad * heading_rad));
@@ -180,10 +181,15 @@ void Pipeline::take_sweep() {
 
 bool Pipeline::undistort(std::size_t max_returns) {
   const bool may_take = stage_ == PipelineStage::waiting || stage_ == PipelineStage::undistorting;
-  if (may_take && !paused_ && sweeps_.ready()) { take_sweep(); }
+  if (may_take && !undistorted_ && !paused_ && sweeps_.ready()) { take_sweep(); }
   if (stage_ != PipelineStage::undistorting) { return false; }
-  const Status status = undistorter_.step(poses_, max_returns);
+  const Status status = undistorted_ ? Status::ok : undistorter_.step(poses_, max_returns);
   if (status == Status::not_ready) { return false; }
+  if (status == Status::ok && begins_apart_ && !undistorted_) {
+    undistorted_ = true;
+    return false;
+  }
+  undistorted_ = false;
   stage_ = PipelineStage::waiting;
   if (status != Status::ok) {
     ++counters_.sweeps_uncovered;

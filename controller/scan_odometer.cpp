@@ -49,12 +49,13 @@ bool ScanOdometerCore::step() {
   if (stage_ == Stage::begin) {
     const Pose2d guess =
         between(scans_[reference_].odom_T_lidar, scans_[1 - reference_].odom_T_lidar);
-    matcher_.begin(view(reference_), {.points = view(1 - reference_), .start = to_f32(guess)});
+    matcher_.begin_slices(view(reference_),
+                          {.points = view(1 - reference_), .start = to_f32(guess)});
     stage_ = Stage::iterate;
     return true;
   }
   if (stage_ != Stage::iterate) { return false; }
-  if (matcher_.done() || matcher_.step()) { conclude(); }
+  if (matcher_.step_slice(config_.max_looks)) { conclude(); }
   return true;
 }
 

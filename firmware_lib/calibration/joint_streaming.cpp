@@ -26,6 +26,12 @@ void follow_median(double& scale, double value) {
   scale *= value > median ? 1.0 + kStep : 1.0 / (1.0 + kStep);
 }
 
+/// What was found missing before stands.
+Status refuse(JointReport& report, RefusalReason reason, Parameter parameter) {
+  if (!report.refusal) { report.refusal = {reason, parameter}; }
+  return Status::degenerate;
+}
+
 }  // namespace
 
 Status JointStreaming::offer(const MotionSample& sample) {
@@ -37,6 +43,7 @@ Status JointStreaming::offer(const MotionSample& sample) {
   }
   if (held_ == waiting_.size()) { return Status::full; }
   waiting_[(oldest_ + held_) % waiting_.size()] = sample;
+  if (samples_ < kWarmUp) { waited_.add(sample); }
   ++held_;
   ++samples_;
   return Status::ok;
@@ -51,6 +58,7 @@ Status JointStreaming::add(const MotionSample& sample) {
 void JointStreaming::reset() {
   // Field by field: a fresh object to copy from would need 8 KiB of stack.
   check_ = MotionCheck{};
+  waited_ = MotionCheck{};
   moments_.fill({});
   reference_ = {};
   first_gain_ = {};
@@ -71,6 +79,7 @@ void JointStreaming::reset() {
   samples_ = 0;
   rejected_ = 0;
   stage_ = Stage::gather;
+  part_ = Part::gate;
   round_ = 0;
   next_ = 0;
   refreshes_due_ = 0;
@@ -92,32 +101,53 @@ bool JointStreaming::step() {
       if (held_ < kWarmUp) { return false; }
       stage_ = Stage::noise;
       return true;
-    case Stage::noise: noise_round(); return true;
+    case Stage::noise: noise_slice(); return true;
     case Stage::keep: keep_turns(); return true;
     case Stage::predictor: predictor_slice(); return true;
     case Stage::consume: break;
   }
   if (held_ == 0) { return false; }
-  consume_next();
+  consume_slice();
   return true;
 }
 
-void JointStreaming::consume_next() {
-  const MotionSample sample = waiting_[oldest_];
-  oldest_ = (oldest_ + 1) % waiting_.size();
-  --held_;
-  ++consumed_;
-  consume(sample);
-  const bool due = consumed_ == kWarmUp || (consumed_ > kWarmUp && consumed_ % 4 == 0);
-  refreshes_due_ = due ? 2 : 0;
+void JointStreaming::consume_slice() {
+  const MotionSample& sample = waiting_[oldest_];
+  switch (part_) {
+    case Part::gate:
+      ++consumed_;
+      if (!passes(sample)) {
+        ++rejected_;
+        release();
+        return;
+      }
+      check_.add(sample);
+      // Those that waited are in it already.
+      if (consumed_ > kWarmUp && gains_known_) { predictor_.add(gain_, sample); }
+      part_ = Part::moments;
+      return;
+    case Part::moments:
+      add_moments(sample, 0, kMoments / 2);
+      part_ = Part::more_moments;
+      return;
+    case Part::more_moments:
+      add_moments(sample, kMoments / 2, kMoments);
+      part_ = Part::information;
+      return;
+    case Part::information:
+      if (solved_) { add_to_information(sample); }
+      release();
+      return;
+  }
 }
 
-void JointStreaming::consume(const MotionSample& sample) {
-  if (passes(sample)) {
-    accumulate(sample);
-  } else {
-    ++rejected_;
-  }
+/// The oldest sample is done with.
+void JointStreaming::release() {
+  oldest_ = (oldest_ + 1) % waiting_.size();
+  --held_;
+  part_ = Part::gate;
+  const bool due = consumed_ == kWarmUp || (consumed_ > kWarmUp && consumed_ % 4 == 0);
+  refreshes_due_ = due ? 2 : 0;
 }
 
 bool JointStreaming::passes(const MotionSample& sample) {
@@ -150,11 +180,8 @@ bool JointStreaming::passes(const MotionSample& sample) {
   return good;
 }
 
-void JointStreaming::accumulate(const MotionSample& sample) {
-  check_.add(sample);
-  if (consumed_ > kWarmUp && gains_known_) {
-    predictor_.add(gain_, sample);
-  }  // those that waited are in it already
+/// Moments `from` to before `to`, in the order of the triangle's rows.
+void JointStreaming::add_moments(const MotionSample& sample, std::size_t from, std::size_t to) {
   const Turns turn = turns_of(sample);
   const Quadratic o =
       linear_form(reference_.j21 * turn.left + reference_.j22 * turn.right, turn.left, turn.right);
@@ -176,11 +203,13 @@ void JointStreaming::accumulate(const MotionSample& sample) {
   std::size_t k = 0;
   for (std::size_t i = 0; i < 5; ++i) {
     for (std::size_t j = 0; j <= i; ++j) {
-      add_to(moments_[k], x[i] * x[j] + y[i] * y[j]);
+      if (k >= from && k < to) { add_to(moments_[k], x[i] * x[j] + y[i] * y[j]); }
       ++k;
     }
   }
-  if (!solved_) { return; }
+}
+
+void JointStreaming::add_to_information(const MotionSample& sample) {
   const DriveJacobian jacobian = lidar_motion_jacobian(drive_, sample);
   constexpr double kNever = 1e150;
   add_information(information_translation_, jacobian, {1.0, 1.0, kNever});
@@ -248,39 +277,48 @@ void JointStreaming::refresh_solution() {
 }
 
 Status JointStreaming::solve(JointReport& report, bool with_condition) const {
+  const Status status = solve_drive(report);
+  if (!is_ok(status)) { return status; }
+  solve_information(report);
+  return solve_deviations(report, with_condition);
+}
+
+Status JointStreaming::solve_drive(JointReport& report) const {
   report = JointReport{};
   report.samples = samples_;
   report.used = check_.samples();
   if (stage_ != Stage::consume) {  // nothing has passed the gate: judge what waits
-    MotionCheck seen;
-    for (const MotionSample& sample : waiting()) { seen.add(sample); }
-    report.refusal = seen.judge(config_.needs);
+    report.refusal = waited_.judge(config_.needs);
     if (!report.refusal) {
       report.refusal = {RefusalReason::too_little_data, Parameter::track_width};
     }
     return Status::degenerate;
   }
   report.refusal = check_.judge(config_.needs);
-  const auto refuse = [&](RefusalReason reason, Parameter parameter) {
-    if (!report.refusal) { report.refusal = {reason, parameter}; }
-    return Status::degenerate;
-  };
   if (!is_ok(current(report.gain, report.drive)) || !solved_) {
-    return refuse(RefusalReason::numerically_singular, Parameter::track_width);
+    return refuse(report, RefusalReason::numerically_singular, Parameter::track_width);
   }
+  return Status::ok;
+}
+
+void JointStreaming::solve_information(JointReport& report) const {
   report.noise = noise();
   const double translation2 = report.noise.x_m * report.noise.x_m;
   const double rotation2 = report.noise.theta_rad * report.noise.theta_rad;
-  DriveMatrix information{};
   for (std::size_t k = 0; k < 36; ++k) {
-    information[k] =
+    report.covariance[k] =
         information_translation_[k] / translation2 + information_rotation_[k] / rotation2;
   }
+}
+
+Status JointStreaming::solve_deviations(JointReport& report, bool with_condition) const {
+  const DriveMatrix information = report.covariance;
+  report.covariance = {};
   const Status inverted = with_condition
                               ? covariance_of(information, report.covariance, report.condition)
                               : invert_symmetric(information, report.covariance);
   if (!is_ok(inverted)) {
-    return refuse(RefusalReason::numerically_singular, Parameter::lidar_yaw);
+    return refuse(report, RefusalReason::numerically_singular, Parameter::lidar_yaw);
   }
   report.inlier_covariance = report.covariance;
   const DriveParameters& d = report.drive;
@@ -295,7 +333,7 @@ Status JointStreaming::solve(JointReport& report, bool with_condition) const {
                                    Parameter::lidar_y,           Parameter::lidar_yaw};
   for (std::size_t k = 0; k < 6; ++k) {
     if (!(report.covariance[7 * k] <= limits[k] * magnitude(limits[k]))) {
-      return refuse(RefusalReason::too_little_data, kOrder[k]);
+      return refuse(report, RefusalReason::too_little_data, kOrder[k]);
     }
   }
   return report.refusal ? Status::degenerate : Status::ok;

@@ -13,45 +13,59 @@
 namespace picolo::inline v0 {
 namespace {
 
-/// J21, J22 of samples whose residual is at most `limit` from the gain so far; a small ridge picks
-/// the smallest gains when the wheels have not varied yet (which makes the wheels of a turn on the
-/// spot equal: the best guess there is).
-RotationGain ridge_gain(std::span<const MotionSample> samples, const RotationGain& before,
-                        double limit) {
-  double ll = 0.0, lr = 0.0, rr = 0.0, lt = 0.0, rt = 0.0;
-  for (const MotionSample& sample : samples) {
-    const Turns turn = turns_of(sample);
-    const double theta = sample.lidar_motion.theta_rad;
-    if (magnitude(theta - (before.j21 * turn.left + before.j22 * turn.right)) > limit) { continue; }
-    ll += turn.left * turn.left;
-    lr += turn.left * turn.right;
-    rr += turn.right * turn.right;
-    lt += turn.left * theta;
-    rt += turn.right * theta;
-  }
-  const double ridge = 1e-3 * (ll + rr);
-  const double determinant = (ll + ridge) * (rr + ridge) - lr * lr;
-  if (!(determinant > 0.0)) { return {}; }
-  return {((rr + ridge) * lt - lr * rt) / determinant, ((ll + ridge) * rt - lr * lt) / determinant};
-}
-
-double median_residual(std::span<const MotionSample> samples, const RotationGain& gain,
-                       std::span<double> work) {
-  for (std::size_t k = 0; k < samples.size(); ++k) {
-    const Turns turn = turns_of(samples[k]);
-    work[k] = magnitude(samples[k].lidar_motion.theta_rad -
-                        (gain.j21 * turn.left + gain.j22 * turn.right));
-  }
-  std::sort(work.begin(), work.end());
-  return work[work.size() / 2];
+double turn_error(const MotionSample& sample, const RotationGain& gain) {
+  const Turns turn = turns_of(sample);
+  return magnitude(sample.lidar_motion.theta_rad - (gain.j21 * turn.left + gain.j22 * turn.right));
 }
 
 }  // namespace
 
-void JointStreaming::noise_round() {
-  const double limit = round_ == 0 ? 1e9 : 4.0 * kMedianToSigma * first_median_ + 1e-6;
-  reference_ = ridge_gain(waiting(), reference_, limit);
-  first_median_ = median_residual(waiting(), reference_, work_);
+/// Five rounds of: the gains of samples whose residual is below four medians, the residuals from
+/// them, their median.
+void JointStreaming::noise_slice() {
+  if (next_ < kWarmUp) {
+    add_turns(round_ == 0 ? 1e9 : 4.0 * kMedianToSigma * first_median_ + 1e-6);
+  } else if (next_ < 2 * kWarmUp) {
+    measure_turns();
+  } else {
+    close_noise_round();
+  }
+}
+
+void JointStreaming::add_turns(double limit) {
+  if (next_ == 0) { turns_ = {}; }
+  for (const std::size_t end = next_ + kTurnsPerSlice; next_ < end; ++next_) {
+    const MotionSample& sample = waiting_[next_];
+    if (turn_error(sample, reference_) > limit) { continue; }
+    const Turns turn = turns_of(sample);
+    const double theta = sample.lidar_motion.theta_rad;
+    turns_.ll += turn.left * turn.left;
+    turns_.lr += turn.left * turn.right;
+    turns_.rr += turn.right * turn.right;
+    turns_.lt += turn.left * theta;
+    turns_.rt += turn.right * theta;
+  }
+  if (next_ < kWarmUp) { return; }
+  // A small ridge picks the smallest gains when the wheels have not varied yet (which makes the
+  // wheels of a turn on the spot equal: the best guess there is).
+  const TurnSums& s = turns_;
+  const double ridge = 1e-3 * (s.ll + s.rr);
+  const double determinant = (s.ll + ridge) * (s.rr + ridge) - s.lr * s.lr;
+  reference_ = determinant > 0.0 ? RotationGain{((s.rr + ridge) * s.lt - s.lr * s.rt) / determinant,
+                                                ((s.ll + ridge) * s.rt - s.lr * s.lt) / determinant}
+                                 : RotationGain{};
+}
+
+void JointStreaming::measure_turns() {
+  for (const std::size_t end = next_ + kTurnsPerSlice; next_ < end; ++next_) {
+    work_[next_ - kWarmUp] = turn_error(waiting_[next_ - kWarmUp], reference_);
+  }
+}
+
+void JointStreaming::close_noise_round() {
+  std::sort(work_.begin(), work_.end());
+  first_median_ = work_[kWarmUp / 2];
+  next_ = 0;
   ++round_;
   if (round_ < kNoiseRounds) { return; }
   first_gain_ = reference_;
@@ -60,15 +74,18 @@ void JointStreaming::noise_round() {
 }
 
 void JointStreaming::keep_turns() {
-  // While those that waited pass the gate, it stands where all of them together put it.
-  MotionCheck kept;
-  for (const MotionSample& sample : waiting()) {
-    const Turns turn = turns_of(sample);
-    const double error =
-        sample.lidar_motion.theta_rad - (reference_.j21 * turn.left + reference_.j22 * turn.right);
-    if (magnitude(error) <= 4.0 * scale_rotation_rad_) { kept.add(sample); }
+  if (next_ < kWarmUp) {
+    // While those that waited pass the gate, it stands where all of them together put it. Until
+    // then nothing has passed it, and `check_` is free.
+    for (const std::size_t end = next_ + kChecksPerSlice; next_ < end; ++next_) {
+      if (turn_error(waiting_[next_], reference_) <= 4.0 * scale_rotation_rad_) {
+        check_.add(waiting_[next_]);
+      }
+    }
+    return;
   }
-  follow_gain(kept);
+  follow_gain(check_);
+  check_ = MotionCheck{};
   limit_ = 1e9;
   round_ = 0;
   next_ = 0;
@@ -77,6 +94,10 @@ void JointStreaming::keep_turns() {
 }
 
 void JointStreaming::predictor_slice() {
+  if (next_ == kWarmUp) {
+    close_predictor_round();
+    return;
+  }
   if (next_ == 0) { next_predictor_.reset(); }
   const std::size_t end = std::min(kWarmUp, next_ + kSamplesPerSlice);
   for (; next_ < end; ++next_) {
@@ -84,7 +105,6 @@ void JointStreaming::predictor_slice() {
     work_[next_] = hypotenuse(judged.x_m, judged.y_m);
     if (work_[next_] <= limit_) { next_predictor_.add(gain_, waiting_[next_]); }
   }
-  if (next_ == kWarmUp) { close_predictor_round(); }
 }
 
 void JointStreaming::close_predictor_round() {

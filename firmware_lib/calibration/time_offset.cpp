@@ -80,9 +80,9 @@ Status TimeOffsetCore::offer_wheels(const WheelAngles& angles) {
   if (size_ > 0 && !(angles.stamp_s > by_age(size_ - 1).stamp_s)) { return Status::out_of_range; }
   // What is half served must be finished before its past is overwritten.
   const bool overwrites = size_ == history_.size();
-  while (open_ && overwrites &&
-         waiting_[waiting_first_].begin_s - config_.max_offset_s < by_age(1).stamp_s) {
-    step(lags_.size());
+  if (open_ && overwrites &&
+      waiting_[waiting_first_].begin_s - config_.max_offset_s < by_age(1).stamp_s) {
+    return Status::full;
   }
   history_[next_] = angles;
   next_ = (next_ + 1) % history_.size();
@@ -112,7 +112,9 @@ Status TimeOffsetCore::wheels_at(double stamp_s, WheelAngles& angles) const {
 
 bool TimeOffsetCore::step(std::size_t max_lags) {
   if (!open_) { return open_next(); }
-  const std::size_t end = std::min(lags_.size(), next_lag_ + max_lags);
+  // To fit a lag takes as long as to add to it.
+  const std::size_t most = looking_ ? (max_lags + 1) / 2 : max_lags;
+  const std::size_t end = std::min(lags_.size(), next_lag_ + most);
   for (; next_lag_ < end; ++next_lag_) { add_to_lag(next_lag_); }
   if (next_lag_ == lags_.size()) { close(); }
   return true;
@@ -234,21 +236,42 @@ Status TimeOffsetCore::solve(TimeOffsetReport& report) const {
   return solve_at(best, least, report);
 }
 
-Status TimeOffsetCore::solve_nearby(TimeOffsetReport& report) const {
-  std::size_t best = gate_lag_;
-  Fit least = fit(best);
-  for (const bool upwards : {true, false}) {
-    for (;;) {
-      const bool at_end = upwards ? best + 1 >= lags_.size() : best == 0;
-      if (at_end) { break; }
-      const std::size_t next = upwards ? best + 1 : best - 1;
-      const Fit candidate = fit(next);
-      if (!(candidate.squares < least.squares)) { break; }
-      best = next;
-      least = candidate;
-    }
+void TimeOffsetCore::step_walk(Walk& walk) const {
+  if (!walk.begun) {
+    walk.begun = true;
+    walk.best = gate_lag_;
+    walk.least = fit(walk.best);
+    return;
   }
-  return solve_at(best, least, report);
+  const bool at_end = walk.upwards ? walk.best + 1 >= lags_.size() : walk.best == 0;
+  const std::size_t next = walk.upwards ? walk.best + 1 : walk.best - 1;
+  const Fit candidate = at_end ? walk.least : fit(next);
+  if (candidate.squares < walk.least.squares) {
+    walk.best = next;
+    walk.least = candidate;
+    return;
+  }
+  walk.over = !walk.upwards;
+  walk.upwards = false;
+}
+
+Status TimeOffsetCore::solve_nearby(TimeOffsetReport& report) const {
+  Walk walk;
+  while (!walk.over) { step_walk(walk); }
+  return solve_at(walk.best, walk.least, report);
+}
+
+void TimeOffsetCore::begin_solution() {
+  walk_ = {};
+}
+
+bool TimeOffsetCore::solve_slice(std::size_t max_fits, TimeOffsetReport& report) {
+  if (!walk_.over) {
+    for (std::size_t k = 0; k < max_fits && !walk_.over; ++k) { step_walk(walk_); }
+    return false;
+  }
+  static_cast<void>(solve_at(walk_.best, walk_.least, report));
+  return true;
 }
 
 Status TimeOffsetCore::solve_at(std::size_t best, const Fit& least,

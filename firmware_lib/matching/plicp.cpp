@@ -12,6 +12,14 @@
 namespace picolo::inline v0 {
 namespace {
 
+constexpr std::size_t kAllLooks = 1U << 30;
+// What else is done, in looks that take as long.
+constexpr std::size_t kLooksPerBearing = 4;
+constexpr std::size_t kLooksPerLine = 24;
+constexpr std::size_t kLooksPerPoint = 10;
+constexpr std::size_t kLooksPerSorted = 8;
+constexpr std::size_t kLooksPerPair = 3;
+
 float squared_distance(const Point2f& a, const Point2f& b) {
   return square(a.x_m - b.x_m) + square(a.y_m - b.y_m);
 }
@@ -19,29 +27,105 @@ float squared_distance(const Point2f& a, const Point2f& b) {
 }  // namespace
 
 void PlIcpMatcherCore::begin(const PointsView& reference, const MatchRequest& request) {
+  begin_slices(reference, request);
+  while (!done_ && stage_ != Stage::pairs) { static_cast<void>(do_piece(kAllLooks)); }
+}
+
+void PlIcpMatcherCore::begin_slices(const PointsView& reference, const MatchRequest& request) {
   reference_ = reference;
   request_ = request;
   report_ = MatchReport{};
   report_.pose = request.start;
   reference_count_ = std::min(reference.size(), storage_.by_bearing.size());
   scan_count_ = std::min(request.points.size(), storage_.pairs.size());
+  next_ = 0;
+  stage_ = Stage::bearings;
   done_ = false;
-  const std::span<std::uint16_t> order = storage_.by_bearing.first(reference_count_);
-  // Bearings by original index first: the sort key.
-  for (std::size_t k = 0; k < reference_count_; ++k) {
-    order[k] = static_cast<std::uint16_t>(k);
-    storage_.sorted_m[k] = arc_tangent2(reference.y_m[k], reference.x_m[k]);
+  const auto needed = static_cast<std::size_t>(config_.min_pairs);
+  if (reference_count_ < needed || scan_count_ < needed) {
+    static_cast<void>(finish(MatchOutcome::too_few_points));
   }
+}
+
+bool PlIcpMatcherCore::step() {
+  bool iterated = false;
+  while (!done_ && !iterated) {
+    iterated = stage_ == Stage::solution;
+    static_cast<void>(do_piece(kAllLooks));
+  }
+  return done_;
+}
+
+bool PlIcpMatcherCore::step_slice(std::size_t max_looks) {
+  std::size_t looks = 0;
+  while (!done_ && (looks == 0 || looks + least_looks() <= max_looks)) {
+    looks += do_piece(max_looks > looks ? max_looks - looks : 1);
+  }
+  return done_;
+}
+
+/// What the next piece takes at least.
+std::size_t PlIcpMatcherCore::least_looks() const {
+  switch (stage_) {
+    case Stage::bearings: return kLooksPerBearing;
+    case Stage::order: return kLooksPerSorted * reference_count_;
+    case Stage::lines: return kLooksPerLine;
+    case Stage::pairs: return kLooksPerPoint + 2 * static_cast<std::size_t>(config_.max_candidates);
+    case Stage::solution: break;
+  }
+  return kLooksPerPair * scan_count_;
+}
+
+/// Returns the looks that it took.
+std::size_t PlIcpMatcherCore::do_piece(std::size_t max_looks) {
+  const std::size_t least = least_looks();
+  switch (stage_) {
+    case Stage::bearings: return find_bearings(max_looks);
+    case Stage::order: order_by_bearing(); return least;
+    case Stage::lines: return find_lines(max_looks);
+    case Stage::pairs: return find_pairs(max_looks);
+    case Stage::solution: break;
+  }
+  next_ = 0;
+  stage_ = Stage::pairs;
+  done_ = solve_step();
+  return least;
+}
+
+/// By original index: the key to sort by.
+std::size_t PlIcpMatcherCore::find_bearings(std::size_t max_looks) {
+  const std::size_t most = std::max<std::size_t>(1, max_looks / kLooksPerBearing);
+  const std::size_t count = std::min(most, reference_count_ - next_);
+  for (const std::size_t end = next_ + count; next_ < end; ++next_) {
+    storage_.by_bearing[next_] = static_cast<std::uint16_t>(next_);
+    storage_.sorted_m[next_] = arc_tangent2(reference_.y_m[next_], reference_.x_m[next_]);
+  }
+  if (next_ == reference_count_) { stage_ = Stage::order; }
+  return count * kLooksPerBearing;
+}
+
+void PlIcpMatcherCore::order_by_bearing() {
+  const std::span<std::uint16_t> order = storage_.by_bearing.first(reference_count_);
   const std::span<const float> key = storage_.sorted_m;
   std::sort(order.begin(), order.end(), [key](std::uint16_t a, std::uint16_t b) {
     return key[a] < key[b] || (key[a] == key[b] && a < b);
   });
   for (std::size_t k = 0; k < reference_count_; ++k) { storage_.bearing_rad[k] = key[order[k]]; }
-  for (std::size_t k = 0; k < reference_count_; ++k) { storage_.lines[k] = line_at(k); }
-  const auto needed = static_cast<std::size_t>(config_.min_pairs);
-  if (reference_count_ < needed || scan_count_ < needed) {
-    static_cast<void>(finish(MatchOutcome::too_few_points));
+  next_ = 0;
+  stage_ = Stage::lines;
+}
+
+std::size_t PlIcpMatcherCore::find_lines(std::size_t max_looks) {
+  const std::size_t most = std::max<std::size_t>(1, max_looks / kLooksPerLine);
+  const std::size_t count = std::min(most, reference_count_ - next_);
+  for (const std::size_t end = next_ + count; next_ < end; ++next_) {
+    storage_.lines[next_] = line_at(next_);
   }
+  if (next_ == reference_count_) {
+    next_ = 0;
+    stage_ = Stage::pairs;
+  }
+  return count * kLooksPerLine;
 }
 
 Point2f PlIcpMatcherCore::reference_at(std::size_t position) const {
@@ -59,12 +143,14 @@ PlIcpMatcherCore::Partner PlIcpMatcherCore::nearest(const Point2f& p) const {
       std::lower_bound(bearings.begin(), bearings.end(), bearing) - bearings.begin());
   Partner best;
   best.squared_m2 = square(config_.max_pair_m);
+  std::size_t looks = 0;
   const auto look = [&](std::size_t position) {
+    ++looks;
     const float angle = magnitude(wrap_angle(bearings[position] - bearing));
     // sin d >= 2 d / pi below a right angle
     if (angle < 1.5F && square(range * angle * 0.6366F) > best.squared_m2) { return false; }
     const float squared = squared_distance(reference_at(position), p);
-    if (squared < best.squared_m2) { best = {position, squared, true}; }
+    if (squared < best.squared_m2) { best = {position, squared, 0, true}; }
     return true;
   };
   const auto candidates = static_cast<std::size_t>(config_.max_candidates);
@@ -77,6 +163,7 @@ PlIcpMatcherCore::Partner PlIcpMatcherCore::nearest(const Point2f& p) const {
   for (std::size_t k = 0; k < most && look(down); ++k) {
     down = down > 0 ? down - 1 : reference_count_ - 1;
   }
+  best.looks = looks;
   return best;
 }
 
@@ -132,23 +219,27 @@ ReferenceLine PlIcpMatcherCore::line_at(std::size_t position) const {
   return {{origin.x_m + x / n, origin.y_m + y / n}, {normal.x_m / length, normal.y_m / length}};
 }
 
-void PlIcpMatcherCore::find_pairs() {
+std::size_t PlIcpMatcherCore::find_pairs(std::size_t max_looks) {
   const SinCos<float> turn = sin_cos(report_.pose.theta_rad);
-  pair_count_ = 0;
-  for (std::size_t k = 0; k < scan_count_; ++k) {
-    const float x = request_.points.x_m[k];
-    const float y = request_.points.y_m[k];
+  if (next_ == 0) { pair_count_ = 0; }
+  std::size_t looks = 0;
+  for (; next_ < scan_count_ && looks < max_looks; ++next_) {
+    const float x = request_.points.x_m[next_];
+    const float y = request_.points.y_m[next_];
     const Point2f p{report_.pose.x_m + (turn.cosine * x - turn.sine * y),
                     report_.pose.y_m + (turn.sine * x + turn.cosine * y)};
     const Partner partner = nearest(p);
+    looks += kLooksPerPoint + partner.looks;
     if (!partner.found) { continue; }
     const ReferenceLine& line = storage_.lines[partner.position];
     if (line.normal == Point2f{}) { continue; }
-    storage_.pairs[pair_count_] = {static_cast<std::uint16_t>(k), line.normal,
+    storage_.pairs[pair_count_] = {static_cast<std::uint16_t>(next_), line.normal,
                                    line.normal.x_m * (p.x_m - line.anchor_m.x_m) +
                                        line.normal.y_m * (p.y_m - line.anchor_m.y_m)};
     ++pair_count_;
   }
+  if (next_ == scan_count_) { stage_ = Stage::solution; }
+  return looks;
 }
 
 float PlIcpMatcherCore::trim_limit() {
@@ -193,9 +284,7 @@ NormalEquations3 PlIcpMatcherCore::linearise(float limit_m, float& mean_squares,
   return system;
 }
 
-bool PlIcpMatcherCore::step() {
-  if (done_) { return true; }
-  find_pairs();
+bool PlIcpMatcherCore::solve_step() {
   if (pair_count_ < static_cast<std::size_t>(config_.min_pairs)) {
     return finish(MatchOutcome::too_few_points);
   }

@@ -50,6 +50,8 @@ Status PoseSearch::begin(const DistanceFieldView& field, const MaxPyramidView& p
   angle_bounds_.fill(0);
   angle_ = -tree_.half_angles();
   row_ = -tree_.half_cells();
+  column_ = row_;
+  kept_ = 0;
   phase_ = Phase::bounding;
   return Status::ok;
 }
@@ -70,21 +72,27 @@ std::int32_t PoseSearch::score_units(float score) const {
   return round_to_i32(score * full_score, 0, 1 << 20);
 }
 
-PoseNode PoseSearch::bounded_square(int x) {
+PoseNode PoseSearch::bounded_square() {
   PoseNode square{0, static_cast<std::int16_t>(angle_), static_cast<std::int16_t>(top_level_),
-                  static_cast<std::int16_t>(x), static_cast<std::int16_t>(row_)};
+                  static_cast<std::int16_t>(column_), static_cast<std::int16_t>(row_)};
   square.bound = tree_.bound_of(square);
   return square;
 }
 
-void PoseSearch::bound_next_row() {
-  std::uint16_t& bound = angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())];
+/// True at the end of a row of squares.
+bool PoseSearch::next_square() {
   const int size = MaxPyramidView::size_of(top_level_);
-  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
-    bound = std::max(bound, static_cast<std::uint16_t>(bounded_square(x).bound));
-  }
+  column_ += size;
+  if (column_ <= tree_.half_cells()) { return false; }
+  column_ = -tree_.half_cells();
   row_ += size;
-  if (row_ <= tree_.half_cells()) { return; }
+  return true;
+}
+
+void PoseSearch::bound_next_square() {
+  std::uint16_t& bound = angle_bounds_[static_cast<std::size_t>(angle_ + tree_.half_angles())];
+  bound = std::max(bound, static_cast<std::uint16_t>(bounded_square().bound));
+  if (!next_square() || row_ <= tree_.half_cells()) { return; }
   row_ = -tree_.half_cells();
   ++angle_;
   if (angle_ > tree_.half_angles()) {
@@ -113,18 +121,15 @@ void PoseSearch::choose_angle() {
   phase_ = Phase::rows;
 }
 
-void PoseSearch::push_next_row() {
-  const int size = MaxPyramidView::size_of(top_level_);
-  const std::span<PoseNode> squares = search_.room();  // the stack is empty here
-  std::size_t kept = 0;
-  for (int x = -tree_.half_cells(); x <= tree_.half_cells(); x += size) {
-    const PoseNode square = bounded_square(x);
-    if (square.bound <= search_.best()) { continue; }
-    squares[kept] = square;
-    ++kept;
+void PoseSearch::push_next_square() {
+  const PoseNode square = bounded_square();
+  if (square.bound > search_.best()) {
+    search_.room()[kept_] = square;  // the stack is empty here
+    ++kept_;
   }
-  search_.push_written(kept);
-  row_ += size;
+  if (!next_square()) { return; }
+  search_.push_written(kept_);
+  kept_ = 0;
   phase_ = Phase::descending;
 }
 
@@ -138,9 +143,9 @@ bool PoseSearch::step(std::uint32_t max_nodes) {
     }
     switch (phase_) {
       case Phase::done: break;
-      case Phase::bounding: bound_next_row(); break;
+      case Phase::bounding: bound_next_square(); break;
       case Phase::choosing: choose_angle(); break;
-      case Phase::rows: push_next_row(); break;
+      case Phase::rows: push_next_square(); break;
       case Phase::descending:
         if (search_.step(tree_)) { break; }
         phase_ = Phase::rows;

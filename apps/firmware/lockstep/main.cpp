@@ -1,12 +1,15 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 
-// The whole controller, one packet a minor frame: IN OUT, two files (pipes). Each reply is what
-// LockstepController::reply says, then how long each task took and how deep the stack was.
+// The whole controller, one packet a minor frame: IN OUT, two files (pipes), and `log` where the
+// packets are a recorded log's. Each reply is what
+// LockstepController::reply says, then how long each task took and how deep the stack was. The
+// image `calibrating` is the same with the calibration routine, ready for its command.
 
 #include <cstring>
 #include <new>
 
+#include "picolo/simulated/board_config.hpp"
 #include "picolo/simulated/lockstep_controller.hpp"
 #include "platform.hpp"
 
@@ -15,6 +18,9 @@ namespace {
 
 using Robot = LockstepController<RoomProfile>;
 
+constexpr ControllerConfig kInstalled = board_config(kSoftwareDoubles);
+constexpr ControllerConfig kOnALog = on_a_log(kInstalled);
+
 class Ticks final : public CycleCounter {
  public:
   [[nodiscard]] std::uint32_t cycles() override { return platform::ticks(); }
@@ -22,6 +28,9 @@ class Ticks final : public CycleCounter {
 };
 
 alignas(64) constinit std::byte g_robot[sizeof(Robot)];
+#ifdef PICOLO_CALIBRATES
+alignas(64) constinit std::byte g_calibration[sizeof(BoardCalibration)];
+#endif
 alignas(8) constinit std::uint8_t g_packet[lockstep::kMaxPacket];
 constinit std::uint8_t g_reply[Robot::kMaxReply];
 
@@ -85,7 +94,16 @@ int run() {
   const int replies = platform::open_output(out);
   if (packets < 0 || replies < 0) { return 1; }
   Ticks counter;
-  Robot& robot = *new (g_robot) Robot(counter);
+  char drive[8];
+  platform::argument(2, drive);
+  const ControllerConfig& config = std::strcmp(drive, "log") == 0 ? kOnALog : kInstalled;
+  ControllerServices services;
+#ifdef PICOLO_CALIBRATES
+  auto& calibration =
+      *new (g_calibration) BoardCalibration(board_calibration(config, kSoftwareDoubles));
+  services.calibration = &calibration.core();
+#endif
+  Robot& robot = *new (g_robot) Robot(counter, config, services);
   std::size_t size = 0;
   while (read_packet(packets, size)) {
     TaskTicks ticks;

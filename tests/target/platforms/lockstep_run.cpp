@@ -13,6 +13,7 @@
 #include <future>
 #include <memory>
 
+#include "picolo/simulated/board_config.hpp"
 #include "picolo/simulated/lockstep_controller.hpp"
 
 namespace picolo::target {
@@ -76,14 +77,17 @@ class StandingCycles final : public CycleCounter {
   [[nodiscard]] std::uint32_t cycles_per_us() const override { return 1; }
 };
 
-/// What the wires of the simulation brought since the last frame.
-ByteView drain(sim::Simulation& simulation, lockstep::PacketWriter& packet) {
-  while (const Result<CanFrame> frame = simulation.can().receive()) { packet.add(*frame); }
+/// What the wires of the drive brought since the last frame.
+ByteView drain(Drive& drive, lockstep::PacketWriter& packet) {
+  while (const Result<CanFrame> frame = drive.can().receive()) { packet.add(*frame); }
   std::array<std::uint8_t, 1> byte{};
-  while (const Result<SerialRead> got = simulation.lidar_port().read(byte)) {
+  while (const Result<SerialRead> got = drive.lidar_port().read(byte)) {
     packet.add_lidar(byte[0], got->last_byte_stamp);
   }
-  while (const Result<SerialRead> got = simulation.imu_port().read(byte)) {
+  sim::SimSerialPort* const imu = drive.imu_port();
+  while (imu != nullptr) {
+    const Result<SerialRead> got = imu->read(byte);
+    if (!got) { break; }
     packet.add_imu(byte[0], got->last_byte_stamp);
   }
   return packet.finish();
@@ -124,42 +128,74 @@ bool frame_on_both(const Pipes& pipes, const std::future<Outcome>& image, ByteVi
   return true;
 }
 
+/// What the twin did in the frames, for the table of work.
+class Witness {
+ public:
+  explicit Witness(const Pipeline& pipeline) : pipeline_(pipeline) {}
+  /// To be called after each frame; `calibrates`: the routine had a slice of it.
+  void look(bool calibrates, LockstepRun& run) {
+    const LocaliserCounters& counters = pipeline_.localiser().counters();
+    const bool searching = pipeline_.searching();
+    const bool anywhere = counters.searched_anywhere != anywhere_;
+    run.background.push_back(!searching && !searching_
+                                 ? (calibrates ? BackgroundWork::calibration : BackgroundWork::none)
+                             : anywhere ? BackgroundWork::relocalisation
+                                        : BackgroundWork::search);
+    searching_ = searching;
+    const PipelineStage stage = pipeline_.stage();
+    if (stage == PipelineStage::waiting && stage_ != PipelineStage::waiting) {
+      const SweepWork work = work_so_far(pipeline_.localiser());
+      const UndistortedSweep& sweep = pipeline_.sweep();
+      run.sweeps.push_back(
+          {.last_frame = run.frames - 1,
+           .searched = anywhere || counters.searched != searched_,
+           .work = work_between(work_, work,
+                                static_cast<double>(sweep.points.size() + sweep.invalid_returns))});
+      work_ = work;
+      searched_ = counters.searched;
+      anywhere_ = counters.searched_anywhere;
+    }
+    stage_ = stage;
+  }
+
+ private:
+  const Pipeline& pipeline_;
+  PipelineStage stage_ = PipelineStage::waiting;
+  bool searching_ = false;
+  std::uint32_t searched_ = 0;
+  std::uint32_t anywhere_ = 0;
+  SweepWork work_{};
+};
+
 }  // namespace
 
-LockstepRun run_lockstep(const Platform& platform, sim::SceneName scene, Duration length,
-                         bool icount) {
+LockstepRun run_lockstep(const Platform& platform, Drive& drive, bool icount, bool calibrates) {
   LockstepRun run;
   Pipes pipes;
   auto image = std::async(std::launch::async, [&] {
-    return target::run(platform, "lockstep", {pipes.packets(), pipes.replies()},
+    return target::run(platform, calibrates ? "calibrating" : "lockstep",
+                       {pipes.packets(), pipes.replies(), drive.recorded() ? "log" : "live"},
                        icount ? "-icount shift=6" : "");
   });
   StandingCycles cycles;
-  const auto simulation = std::make_unique<sim::Simulation>(hashed_drive(scene));
-  const auto twin = std::make_unique<Robot>(cycles);
-  const Timestamp end = simulation->now() + length;
-  Timestamp next = simulation->now();
-  PipelineStage before = PipelineStage::waiting;
-  std::uint32_t searches = 0;
-  while (next < end) {
-    simulation->advance_to(next);
+  const ControllerConfig installed = board_config(platform.software_doubles());
+  const ControllerConfig config = drive.recorded() ? on_a_log(installed) : installed;
+  BoardCalibration calibration{board_calibration(config, platform.software_doubles())};
+  const auto twin = std::make_unique<Robot>(
+      cycles, config,
+      ControllerServices{.calibration = calibrates ? &calibration.core() : nullptr});
+  Witness witness{twin->controller().pipeline()};
+  Timestamp next = drive.now();
+  while (!drive.over()) {
+    drive.advance_to(next);
     lockstep::PacketWriter packet{next};
-    if (!frame_on_both(pipes, image, drain(*simulation, packet), *twin, run)) {
+    const bool calibrated = calibration.core().routine().running();
+    if (!frame_on_both(pipes, image, drain(drive, packet), *twin, run)) {
       run.trouble = "the image ended in frame " + std::to_string(run.frames);
       break;
     }
-    for (const CanFrame& frame : twin->board().can().sent()) {
-      (void)simulation->can().transmit(frame);
-    }
-    const Pipeline& pipeline = twin->controller().pipeline();
-    const PipelineStage stage = pipeline.stage();
-    if (stage == PipelineStage::waiting && before != PipelineStage::waiting) {
-      const std::uint32_t searched = pipeline.localiser().counters().searched;
-      run.sweep_ends.push_back(run.frames - 1);
-      run.searched.push_back(searched != searches);
-      searches = searched;
-    }
-    before = stage;
+    for (const CanFrame& frame : twin->board().can().sent()) { (void)drive.can().transmit(frame); }
+    witness.look(calibrated, run);
     next = twin->controller().next_frame();
   }
   pipes.close_packets();
@@ -168,10 +204,12 @@ LockstepRun run_lockstep(const Platform& platform, sim::SceneName scene, Duratio
   if (!run.trouble.empty()) { run.trouble += ": " + outcome.output; }
   const PoseEstimate& estimate = twin->controller().estimate();
   run.matches = estimate.matches;
-  if (const Result<sim::Truth> truth = simulation->truth(estimate.stamp)) {
-    const Pose2d pose = between(simulation->config().scene.world_T_start, truth->world_T_base);
+  run.replaced = twin->controller().pipeline().counters().sweeps_replaced +
+                 twin->controller().pipeline().sweep_counters().replaced;
+  run.calibration = calibration.core().progress();
+  if (const std::optional<Pose2d> truth = drive.true_map_T_base(estimate.stamp)) {
     run.final_error_m =
-        std::hypot(estimate.map_T_base.x_m - pose.x_m, estimate.map_T_base.y_m - pose.y_m);
+        std::hypot(estimate.map_T_base.x_m - truth->x_m, estimate.map_T_base.y_m - truth->y_m);
   }
   return run;
 }

@@ -25,7 +25,8 @@ TEST(Lockstep, EveryReplyOfAnImageEqualsItsTwins) {
                "|---|---|---|---|---|---|\n";
   for (const Platform& platform : platforms_to_judge()) {
     if (platform.program.empty()) { continue; }
-    const LockstepRun run = run_lockstep(platform, sim::SceneName::office, 10s, false);
+    const auto drive = simulated_drive(sim::SceneName::office, 10s);
+    const LockstepRun run = run_lockstep(platform, *drive, false);
     EXPECT_EQ(run.trouble, "") << platform.name;
     EXPECT_EQ(run.unequal, 0U) << platform.name << ", first in frame " << run.first_unequal;
     EXPECT_GT(run.frames, 1990U);

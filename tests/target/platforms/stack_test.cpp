@@ -32,13 +32,14 @@ TEST(Stack, StaticBoundCoversWhatADriveUses) {
       ADD_FAILURE() << platform.name << ": " << trouble
                     << " (calls through pointers are listed in toolchain/indirect_calls.txt)";
     }
-    const LockstepRun drive = run_lockstep(platform, sim::SceneName::hall, 6s, false);
-    EXPECT_EQ(drive.trouble, "");
+    const auto drive = simulated_drive(sim::SceneName::hall, 6s);
+    const LockstepRun run = run_lockstep(platform, *drive, false);
+    EXPECT_EQ(run.trouble, "");
     // The painted depth also holds what the measuring functions and the registers of run() took.
-    EXPECT_LE(drive.deepest_stack_bytes, bound.bytes + 64) << platform.name;
+    EXPECT_LE(run.deepest_stack_bytes, bound.bytes + 64) << platform.name;
     EXPECT_LE(bound.bytes, kBoundBytes) << platform.name;
     std::cout << "| " << platform.name << " | static " << bound.bytes << " bytes | painted "
-              << drive.deepest_stack_bytes << " bytes |\n";
+              << run.deepest_stack_bytes << " bytes |\n";
     for (const std::string& function : bound.way) {
       std::cout << "    " << function.substr(0, 100) << "\n";
     }

@@ -45,6 +45,18 @@ TimeOffsetReport simulated(double offset_s, double noise_rad, std::uint64_t seed
   }
   TimeOffsetReport report;
   EXPECT_EQ(estimator.core().solve(report), Status::ok) << to_string(report.refusal.reason);
+  TimeOffsetReport nearby;
+  EXPECT_EQ(estimator.core().solve_nearby(nearby), Status::ok);
+  TimeOffsetReport sliced;
+  estimator.core().begin_solution();
+  int slices = 1;
+  while (!estimator.core().solve_slice(1, sliced)) { ++slices; }
+  EXPECT_GE(slices, 4) << "the lag, one on either side, the report";
+  for (const TimeOffsetReport& other : {nearby, sliced}) {
+    EXPECT_EQ(other.offset_s.value, report.offset_s.value);
+    EXPECT_EQ(other.offset_s.std, report.offset_s.std);
+    EXPECT_EQ(other.j21, report.j21);
+  }
   return report;
 }
 

@@ -46,6 +46,14 @@ TEST(TaskTable, GivenOffsetsThatKeepTasksApartThenTheirBudgetsDoNotAddUp) {
   EXPECT_EQ(worst_frame_budget(kCycle, kApart), 4ms);
 }
 
+TEST(TaskTable, GivenAlternativesThenTheLongestOfThemCounts) {
+  constexpr TaskTable<4> kShared{TaskEntry{.name = "first", .budget = 2ms},
+                                 TaskEntry{.name = "or", .budget = 3ms, .alternative = true},
+                                 TaskEntry{.name = "or else", .budget = 1ms, .alternative = true},
+                                 TaskEntry{.name = "besides", .budget = 1ms}};
+  EXPECT_EQ(worst_frame_budget(kCycle, kShared), 4ms);
+}
+
 TEST(ExecutiveConfig, GivenFramesThatDoNotFitIntoEachOtherThenRefused) {
   EXPECT_FALSE((ExecutiveConfig{.minor_frame = 0us}.valid()));
   EXPECT_FALSE((ExecutiveConfig{.minor_frame = 3ms, .major_frame = 100ms}.valid()));

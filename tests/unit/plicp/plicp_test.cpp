@@ -112,6 +112,15 @@ TEST(PlIcp, SteppingAndMatchingAreTheSame) {
   EXPECT_EQ(sliced.core().report().pose, whole.pose);
   EXPECT_EQ(steps + 1, whole.iterations);
   EXPECT_TRUE(sliced.core().step()) << "a final report stays final";
+  for (const std::size_t looks : {1U, 700U, 100'000U}) {
+    sliced.core().begin_slices(reference.view(), {.points = current.view()});
+    int slices = 1;
+    while (!sliced.core().step_slice(looks)) { ++slices; }
+    EXPECT_EQ(sliced.core().report().pose, whole.pose) << looks;
+    EXPECT_EQ(sliced.core().report().covariance, whole.covariance) << looks;
+    EXPECT_EQ(sliced.core().report().iterations, whole.iterations) << looks;
+    EXPECT_EQ(slices == 1, looks == 100'000U) << slices << " slices of " << looks;
+  }
 }
 
 TEST(PlIcp, MovedObjectsAreTrimmed) {

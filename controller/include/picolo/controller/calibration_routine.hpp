@@ -56,6 +56,7 @@ struct CalibrationRoutineConfig {
   double min_verified_share = 0.8;     ///< of them within the gates of `joint`
   double max_offset_change_s = 0.003;  ///< beyond it collecting starts again, at most four times
   std::size_t lags_per_step = 6;
+  std::size_t fits_per_step = 4;  ///< of a clock, when its offset is looked at
   std::size_t granules_per_step = 2;
   [[nodiscard]] constexpr bool valid() const {
     return counts_per_revolution > 0.0 && (gyro_sign == 1.0 || gyro_sign == -1.0) &&
@@ -64,7 +65,7 @@ struct CalibrationRoutineConfig {
            target_offset_std_s > 0.0 && target_scale_std > 0.0 && stand > Duration{0} &&
            max_wait > stand && max_collect > Duration{0} && verify_samples > 0 &&
            min_verified_share > 0.0 && min_verified_share <= 1.0 && max_offset_change_s > 0.0 &&
-           lags_per_step > 0 && granules_per_step > 0;
+           lags_per_step > 0 && fits_per_step > 0 && granules_per_step > 0;
   }
 };
 
@@ -144,6 +145,13 @@ class CalibrationRoutine {
     double y_mps2 = 0.0;
     double samples = 0.0;
   };
+  /// A scan that was taken, and what is still to be done with it, a slice each.
+  struct TakenScan {
+    enum class Part : std::uint8_t { none, sample, turn };
+    Part next = Part::none;
+    Scan scan{};
+    MotionSample sample{};
+  };
   struct BaseSpeed {
     double forward_mps = 0.0;
     double omega_radps = 0.0;
@@ -157,16 +165,20 @@ class CalibrationRoutine {
   bool work();
   [[nodiscard]] bool waits_for_gyro(const Scan& scan) const;
   [[nodiscard]] bool take_scan();
+  void use_taken();
   void take_out_bends(const Scan& scan, MotionSample& sample) const;
   void use(const MotionSample& sample);
   void learn_gyro(const Scan& scan);
   void feel(double stamp_s, const ImuSample& sample);
-  void close_felt();
+  bool use_felt();
   [[nodiscard]] bool speed_at(double stamp_s, BaseSpeed& speed) const;
   void wait_for_standstill(Timestamp now);
   bool collect(Timestamp now);
   void look(Timestamp now);
-  void look_at_offset();
+  [[nodiscard]] bool solved(TimeOffsetCore& clock, TimeOffsetReport& report);
+  [[nodiscard]] bool solved_joint();
+  [[nodiscard]] bool looked_at_gyro();
+  void follow_offset();
   void look_at_progress();
   void set(Parameter parameter, double share, RefusalReason reason);
   [[nodiscard]] double information(std::size_t index, double target) const;
@@ -174,6 +186,7 @@ class CalibrationRoutine {
   [[nodiscard]] DriveAdvice choose_advice() const;
   [[nodiscard]] bool complete() const;
   void check();
+  void judge_all();
   void solve(Timestamp now);
   void verify(const MotionSample& sample);
   void judge_verification(Timestamp now);
@@ -194,8 +207,10 @@ class CalibrationRoutine {
   ImuMountReport mount_report_{};
   FeltWindow felt_{};
   FeltWindow felt_before_{};
+  FeltWindow felt_due_{};
   CalibrationRecord record_{};
   std::array<Scan, kWaitingScans> waiting_{};
+  TakenScan taken_{};
   std::size_t first_ = 0;
   std::size_t held_ = 0;
   std::array<std::uint8_t, kIndexes> percent_{};
@@ -207,6 +222,8 @@ class CalibrationRoutine {
   Timestamp entered_{};
   Timestamp next_look_{};
   int look_ = 0;
+  int piece_ = 0;    // of a look or of the check, in slices
+  int solving_ = 0;  // within a piece
   bool finishing_ = false;
   int restarts_ = 0;
   double used_offset_s_ = 0.0;

@@ -36,6 +36,8 @@ class CommandDesk {
   bool consume(const CanFrame& frame, Timestamp now);
   /// What takes longer than a command.
   void work(Timestamp now);
+  /// A calibration is under way.
+  [[nodiscard]] bool serving() const;
 
   [[nodiscard]] OperatingMode mode() const { return mode_; }
   [[nodiscard]] const CommandCounters& counters() const { return gate_.counters(); }

@@ -125,15 +125,21 @@ class Controller {
   bool run(std::size_t task, std::uint32_t work_bound, const FrameInfo& frame) {
     frame_ = frame;
     switch (static_cast<ControllerTask>(task)) {
-      case ControllerTask::can: drain_can(work_bound); break;
+      case ControllerTask::can:
+        stage_at_start_ = pipeline_.stage();
+        drain_can(work_bound);
+        break;
       case ControllerTask::serial: drain_serial(work_bound); break;
       case ControllerTask::odometry: integrate(); break;
       case ControllerTask::undistort: undistort(work_bound); break;
-      case ControllerTask::match: judge(pipeline_.match(work_bound)); break;
-      case ControllerTask::map: pipeline_.map(work_bound); break;
+      case ControllerTask::match:
+        if (may_work(PipelineStage::matching)) { judge(pipeline_.match(work_bound)); }
+        break;
+      case ControllerTask::map:
+        if (may_work(PipelineStage::mapping)) { pipeline_.map(work_bound); }
+        break;
       case ControllerTask::background:
-        judge(pipeline_.search(work_bound));
-        desk_.work(frame.start);
+        in_background(work_bound);
         break;
       case ControllerTask::report: report(); break;
     }
@@ -246,6 +252,11 @@ class Controller {
     if (ready && calibration() != nullptr) { calibration()->add(pipeline_.sweep()); }
   }
 
+  // A stage that was entered in this frame waits for the next one, where only one may work.
+  [[nodiscard]] bool may_work(PipelineStage stage) const {
+    return !config_.work.one_stage_a_frame || stage_at_start_ == stage;
+  }
+
   void judge(bool match_ended) {
     if (!match_ended) { return; }
     const MatchVerdict& verdict = pipeline_.verdict();
@@ -256,6 +267,14 @@ class Controller {
     if (correction.jumped) {
       supervisor_.event(frame_.start, EventCode::pose_jump, composer_.jump_mm());
     }
+  }
+
+  // Search and services by turns, where only one may work.
+  void in_background(std::uint32_t max_slices) {
+    const bool one = config_.work.one_stage_a_frame && pipeline_.searching() && desk_.serving();
+    serves_ = !one || !serves_;
+    if (!one || !serves_) { judge(pipeline_.search(max_slices)); }
+    if (serves_) { desk_.work(frame_.start); }
   }
 
   void report() {
@@ -329,6 +348,8 @@ class Controller {
   CommandDesk desk_;
   Executive<Clock, CycleCounter, Watchdog, kControllerTasks> executive_;
   FrameInfo frame_{};
+  PipelineStage stage_at_start_ = PipelineStage::waiting;  // of the frame
+  bool serves_ = false;                                    // the background did, last
   PoseEstimate estimate_{};
   LatestValue<PoseEstimate> published_{};
   ControllerCounters counters_{};

@@ -31,6 +31,9 @@ struct WorkBounds {
   std::uint32_t max_rays = 128;               ///< into the map
   /// Of SearchConfig::lookups_per_step lookups, in the background.
   std::uint32_t max_search_slices = 4;
+  /// Undistortion, match and map update never work in the same frame, so that each may have the
+  /// time of all three.
+  bool one_stage_a_frame = false;
   [[nodiscard]] constexpr bool valid() const {
     return max_can_frames > 0 && max_serial_bytes > 0 && max_returns > 0 &&
            max_point_iterations > 0 && max_rays > 0 && max_search_slices > 0;
@@ -153,11 +156,13 @@ inline constexpr std::size_t kControllerTasks = 8;
           TaskEntry{.name = "match",
                     .work_bound = work.max_point_iterations,
                     .budget = budgets.match,
-                    .policy = policies.match},
+                    .policy = policies.match,
+                    .alternative = work.one_stage_a_frame},
           TaskEntry{.name = "map",
                     .work_bound = work.max_rays,
                     .budget = budgets.map,
-                    .policy = policies.map},
+                    .policy = policies.map,
+                    .alternative = work.one_stage_a_frame},
           TaskEntry{.name = "background",
                     .work_bound = work.max_search_slices,
                     .budget = budgets.background,

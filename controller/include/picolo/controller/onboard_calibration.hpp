@@ -59,6 +59,7 @@ class OnboardCalibrationCore final : public CalibrationService {
   CalibrationRoutine routine_;
   ScanOdometerCore& scans_;
   Timestamp now_{};
+  bool routine_first_ = false;
 };
 
 /// Memory: 58 bytes a point and about 26 KiB. `Points`: beams of a sweep that are matched, thinned

@@ -183,6 +183,8 @@ class Pipeline {
   Matrix3f set_covariance_{};
   bool pose_was_set_ = false;
   bool paused_ = false;
+  bool begins_apart_;         // the match, in a frame after the undistortion
+  bool undistorted_ = false;  // the sweep at hand, whose match has not begun
   bool coasting_ = false;
   bool guessed_ = false;  // odometry since the last sweep that was begun
   PipelineCounters counters_{};

@@ -22,8 +22,10 @@ struct ScanOdometerConfig {
   Duration min_interval = 150ms;
   /// A longer gap is not bridged: wheels do not keep their rates for so long.
   Duration max_interval = 500ms;
+  /// Of one slice, see PlIcpMatcherCore::step_slice: about an iteration with 360 points.
+  std::size_t max_looks = 10'000;
   [[nodiscard]] constexpr bool valid() const {
-    return min_interval >= Duration{0} && max_interval > min_interval;
+    return min_interval >= Duration{0} && max_interval > min_interval && max_looks > 0;
   }
 };
 
@@ -46,8 +48,7 @@ struct ScanOdometerCounters {
   std::uint32_t skipped = 0;  ///< offered while a match was under way, or too soon
 };
 
-/// Cost: `offer` O(points); a `step` is the beginning of a match or one iteration of it, see
-/// PlIcpMatcherCore. Context: cycle only.
+/// Cost: `offer` O(points); a `step` is a slice of a match, see `max_looks`. Context: cycle only.
 class ScanOdometerCore {
  public:
   /// What is referred to outlives this. `matcher` is used by nobody else.

@@ -18,6 +18,9 @@ struct Platform {
   std::string preset;   ///< its build tree is build/PRESET
   std::string machine;  ///< of QEMU; empty: runs here or under qemu-user
   std::string program;  ///< what must be installed to run it; empty: nothing
+
+  /// Doubles are computed in software: the images have bounds of work of their own.
+  [[nodiscard]] bool software_doubles() const { return preset == "target-m4f"; }
 };
 
 /// All of them, in the order of the tables.

@@ -36,13 +36,15 @@ class LockstepController {
   using Type = Controller<P, CanopenWheels, Ld06, WitMotion>;
   static constexpr std::size_t kMaxReply = 512;
 
-  explicit LockstepController(CycleCounter& cycle_counter)
+  explicit LockstepController(CycleCounter& cycle_counter,
+                              const ControllerConfig& config = simulated_vehicle_config(),
+                              const ControllerServices& services = {})
       : board_(sim::kLd06Baud, sim::WitMotionModelConfig{}.baud),
         wheels_(board_.can(), simulated_wheels_config()),
         lidar_(board_.lidar()),
         imu_(board_.imu()),
         controller_({board_.can(), board_.clock(), cycle_counter, board_.watchdog()}, wheels_,
-                    lidar_, imu_, events_, simulated_vehicle_config()) {}
+                    lidar_, imu_, events_, config, services) {}
   LockstepController(const LockstepController&) = delete;
   LockstepController& operator=(const LockstepController&) = delete;
   ~LockstepController() = default;

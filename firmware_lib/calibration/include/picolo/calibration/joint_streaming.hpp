@@ -40,7 +40,7 @@ struct JointStreamingConfig {
 /// level. State: see `sizeof`, under 8 KiB, whatever the number of samples. Context: one at a time.
 ///
 /// In a cycle: `offer` each sample, then `step` as long as there is time. Cost of `offer`: a copy;
-/// of a `step`: at most about 2000 floating-point operations.
+/// of a `step`: at most about 1200 floating-point operations.
 class JointStreaming {
  public:
   explicit JointStreaming(const JointStreamingConfig& config = {}) : config_(config) {}
@@ -60,27 +60,45 @@ class JointStreaming {
   /// `inlier_covariance` are the same: noise of the samples behind the gate. Cost: a Jacobi SVD of
   /// 6x6 for the condition number, about 10 000 operations; without it some 1500.
   Status solve(JointReport& report, bool with_condition = true) const;
+  /// The same in three slices: the solution; where that is `ok`, the information about it, left in
+  /// `covariance`; its deviations.
+  Status solve_drive(JointReport& report) const;
+  void solve_information(JointReport& report) const;
+  Status solve_deviations(JointReport& report, bool with_condition) const;
   [[nodiscard]] const MotionCheck& check() const { return check_; }
   [[nodiscard]] std::uint64_t samples() const { return samples_; }
   [[nodiscard]] std::uint64_t rejected() const { return rejected_; }
 
-  static constexpr std::size_t kQueue = 16;
+  static constexpr std::size_t kQueue = 15;
 
  private:
   static constexpr std::size_t kWarmUp = 64;
   static constexpr std::size_t kNoiseRounds = 5;
   static constexpr std::size_t kPredictorRounds = 5;
-  static constexpr std::size_t kSamplesPerSlice = 4;
+  static constexpr std::size_t kMoments = 15;  // lower triangle of the 5x5 second stage
+  static constexpr std::size_t kTurnsPerSlice = 32;
+  static constexpr std::size_t kChecksPerSlice = 16;
+  static constexpr std::size_t kSamplesPerSlice = 1;
   /// gather until 64 wait; rotation noise; which turns to keep; displacement noise; then one by
   /// one.
   enum class Stage : std::uint8_t { gather, noise, keep, predictor, consume };
+  /// What becomes of one sample in the last stage, a slice each.
+  enum class Part : std::uint8_t { gate, moments, more_moments, information };
+  /// Normal equations of J21, J22.
+  struct TurnSums {
+    double ll = 0.0, lr = 0.0, rr = 0.0;
+    double lt = 0.0, rt = 0.0;
+  };
 
-  void noise_round();
+  void noise_slice();
+  void add_turns(double limit);
+  void measure_turns();
+  void close_noise_round();
   void keep_turns();
   void predictor_slice();
   void close_predictor_round();
-  void consume_next();
-  void consume(const MotionSample& sample);
+  void consume_slice();
+  void release();
   [[nodiscard]] std::span<const MotionSample> waiting() const {
     return std::span<const MotionSample>{waiting_}.first(std::min(held_, kWarmUp));
   }
@@ -90,11 +108,14 @@ class JointStreaming {
   [[nodiscard]] bool passes(const MotionSample& sample);
   [[nodiscard]] Pose2d noise() const;
   [[nodiscard]] Status current(RotationGain& gain, DriveParameters& drive) const;
-  void accumulate(const MotionSample& sample);
+  void add_moments(const MotionSample& sample, std::size_t from, std::size_t to);
+  void add_to_information(const MotionSample& sample);
 
   JointStreamingConfig config_;
-  MotionCheck check_{};                              // of the samples behind the gate
-  std::array<std::array<double, 6>, 15> moments_{};  // lower triangle of the 5x5 second stage
+  MotionCheck check_{};   // of the samples behind the gate
+  MotionCheck waited_{};  // of the first 64
+  TurnSums turns_{};      // of a round among them
+  std::array<std::array<double, 6>, kMoments> moments_{};
   RotationGain reference_{};
   RotationGain first_gain_{};
   std::array<double, 36> information_translation_{};  // for unit noise
@@ -115,6 +136,7 @@ class JointStreaming {
   std::uint64_t samples_ = 0;
   std::uint64_t rejected_ = 0;
   Stage stage_ = Stage::gather;
+  Part part_ = Part::gate;
   std::size_t round_ = 0;
   std::size_t next_ = 0;   // of the present round
   int refreshes_due_ = 0;  // two slices: what the gate predicts by, then the solution

@@ -82,7 +82,8 @@ class TimeOffsetCore {
   /// Rotation seen between two stamps of the second sensor. `full`: more intervals wait for wheels
   /// than there is room; dropped.
   Status add_rotation(double begin_s, double end_s, double theta_rad);
-  /// As `add_wheels`, without work on intervals unless one would lose its past.
+  /// As `add_wheels`, without work on intervals. `full`: one that is half served would lose its
+  /// past; left out.
   Status offer_wheels(const WheelAngles& angles);
   /// As `add_rotation`, without work on intervals.
   Status offer_rotation(double begin_s, double end_s, double theta_rad);
@@ -102,6 +103,10 @@ class TimeOffsetCore {
   /// intervals ago) and costs seven of them or a few more.
   Status solve(TimeOffsetReport& report) const;
   Status solve_nearby(TimeOffsetReport& report) const;
+  /// `solve_nearby` in slices of at most `max_fits` solutions, the last one of five more and some.
+  /// False until the report is complete.
+  void begin_solution();
+  bool solve_slice(std::size_t max_fits, TimeOffsetReport& report);
   /// Intervals dropped because the wheels' history did not reach back to them, or because too many
   /// waited.
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
@@ -111,6 +116,15 @@ class TimeOffsetCore {
     double squares = 0.0;
     double j21 = 0.0, j22 = 0.0, drift = 0.0;
   };
+  /// Downhill from the lag of the last look, upwards first.
+  struct Walk {
+    std::size_t best = 0;
+    Fit least{};
+    bool begun = false;
+    bool upwards = true;
+    bool over = false;
+  };
+  void step_walk(Walk& walk) const;
   [[nodiscard]] double lag_s(std::size_t index) const;
   [[nodiscard]] const WheelAngles& by_age(std::size_t index) const;
   [[nodiscard]] WheelAngles at(double stamp_s) const;
@@ -143,6 +157,7 @@ class TimeOffsetCore {
   bool looking_ = false;  // in this pass each lag is fitted as well
   Fit looked_fit_{};
   std::size_t looked_lag_ = 0;
+  Walk walk_{};  // of a solution in slices
 };
 
 /// Storage: 56 bytes a lag, 24 a wheel sample, 24 a waiting interval. History must span 2

@@ -31,6 +31,8 @@ struct TaskEntry {
   std::uint32_t work_bound = 1;  ///< handed to the task at each release; the unit is the task's own
   Duration budget{1000};         ///< a run longer than this is an overrun
   OverrunPolicy policy = OverrunPolicy::carry_on;
+  /// Never has work in a frame in which the entry before it had: they share the frame's time.
+  bool alternative = false;
 
   [[nodiscard]] constexpr bool due(std::uint32_t frame) const {
     return frame % period_frames == offset_frames;
@@ -54,14 +56,18 @@ struct ExecutiveConfig {
   }
 };
 
-/// Sum of the budgets of the fullest minor frame. Precondition: `config` and the entries are valid.
+/// Sum of the budgets of the fullest minor frame; of alternatives, the longest counts. Precondition: `config` and the entries are valid.
 [[nodiscard]] constexpr Duration worst_frame_budget(const ExecutiveConfig& config,
                                                     std::span<const TaskEntry> table) {
   Duration worst{0};
   for (std::uint32_t frame = 0; frame < config.frames(); ++frame) {
     Duration sum{0};
+    Duration shared{0};
     for (const TaskEntry& task : table) {
-      if (task.due(frame)) { sum += task.budget; }
+      if (!task.alternative) { shared = Duration{0}; }
+      if (!task.due(frame) || task.budget <= shared) { continue; }
+      sum += task.budget - shared;
+      shared = task.budget;
     }
     worst = sum > worst ? sum : worst;
   }

@@ -80,6 +80,12 @@ class PlIcpMatcherCore {
   void begin(const PointsView& reference, const MatchRequest& request);
   /// One iteration: partners, trimming, one Gauss-Newton step. True when the report is final.
   bool step();
+  /// The same in slices, to the same bits: what `begin` does is left to the first calls of
+  /// `step_slice`, each of which takes as long as about `max_looks` looks at a reference point, or
+  /// does one piece that takes longer: sorting by bearing, the solution of a step. True when the
+  /// report is final.
+  void begin_slices(const PointsView& reference, const MatchRequest& request);
+  bool step_slice(std::size_t max_looks);
   [[nodiscard]] const MatchReport& report() const { return report_; }
   [[nodiscard]] bool done() const { return done_; }
   [[nodiscard]] MatchReport match(const PointsView& reference, const MatchRequest& request);
@@ -88,13 +94,22 @@ class PlIcpMatcherCore {
   struct Partner {
     std::size_t position = 0;  // in the order of bearing
     float squared_m2 = 0.0F;
+    std::size_t looks = 0;
     bool found = false;
   };
+  /// What the next slice goes on with.
+  enum class Stage : std::uint8_t { bearings, order, lines, pairs, solution };
   [[nodiscard]] Point2f reference_at(std::size_t position) const;
   [[nodiscard]] Partner nearest(const Point2f& p) const;
   [[nodiscard]] ReferenceLine line_at(std::size_t position) const;
   [[nodiscard]] std::size_t neighbours(std::size_t position, bool upwards) const;
-  void find_pairs();
+  [[nodiscard]] std::size_t least_looks() const;
+  std::size_t do_piece(std::size_t max_looks);
+  std::size_t find_bearings(std::size_t max_looks);
+  void order_by_bearing();
+  std::size_t find_lines(std::size_t max_looks);
+  std::size_t find_pairs(std::size_t max_looks);
+  bool solve_step();
   [[nodiscard]] float trim_limit();
   [[nodiscard]] NormalEquations3 linearise(float limit_m, float& mean_squares, int& used) const;
   bool finish(MatchOutcome outcome);
@@ -107,6 +122,8 @@ class PlIcpMatcherCore {
   std::size_t reference_count_ = 0;
   std::size_t scan_count_ = 0;
   std::size_t pair_count_ = 0;
+  std::size_t next_ = 0;  // of the stage's points
+  Stage stage_ = Stage::bearings;
   bool done_ = true;
 };
 

@@ -148,7 +148,8 @@ class PoseSearch {
   /// and score above `min_score`. The bounds of the angles are kept.
   void begin_elsewhere(const PoseExclusion& excluded, float min_score);
 
-  /// Evaluates about `max_nodes` more bounds, at most one row of squares more; true when over.
+  /// Evaluates about `max_nodes` more bounds, at most the children of one node more; true
+  /// when over.
   /// Cost: about 25 instructions a point and node.
   bool step(std::uint32_t max_nodes);
   [[nodiscard]] bool done() const { return phase_ == Phase::done; }
@@ -164,11 +165,12 @@ class PoseSearch {
 
   static constexpr std::uint16_t kSearched = 0x8000;  // flag of an angle; bounds are smaller
 
-  [[nodiscard]] PoseNode bounded_square(int x);
+  [[nodiscard]] PoseNode bounded_square();
   [[nodiscard]] std::int32_t score_units(float score) const;
-  void bound_next_row();
+  [[nodiscard]] bool next_square();
+  void bound_next_square();
   void choose_angle();
-  void push_next_row();
+  void push_next_square();
 
   PoseSearchConfig config_;
   PoseTree tree_{};
@@ -179,6 +181,8 @@ class PoseSearch {
   int top_level_ = 0;
   int angle_ = 0;
   int row_ = 0;
+  int column_ = 0;
+  std::size_t kept_ = 0;  // squares of the row so far
   bool bounded_ = false;  // every angle has its bound
   bool exact_ = false;
 };

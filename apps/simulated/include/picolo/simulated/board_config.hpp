@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: picolo contributors
+// SPDX-License-Identifier: Apache-2.0
+/// @file
+/// How the images configure the simulated vehicle's controller on their processor, and with it the
+/// twins of them.
+#pragma once
+
+#include "picolo/controller/cortex_m4f.hpp"
+#include "picolo/controller/onboard_calibration.hpp"
+#include "picolo/simulated/simulated_controller.hpp"
+
+namespace picolo::inline v0 {
+
+/// This code runs where only floats are computed in hardware.
+#if defined(__ARM_FP) && (__ARM_FP & 8) == 0
+inline constexpr bool kSoftwareDoubles = true;
+#else
+inline constexpr bool kSoftwareDoubles = false;
+#endif
+
+[[nodiscard]] constexpr ControllerConfig board_config(bool software_doubles) {
+  const ControllerConfig config = simulated_vehicle_config();
+  return software_doubles ? for_cortex_m4f(config) : config;
+}
+
+/// For a recorded log on the wires of the simulated vehicle (sim::LogPlayer): it has no IMU, starts
+/// and stops at once, and takes its scans standing.
+[[nodiscard]] constexpr ControllerConfig on_a_log(ControllerConfig config) {
+  config.dead_reckoning.use_gyro = false;
+  config.health.expects_gyro = false;
+  config.health.max_match_age = 1h;
+  config.health.max_lidar_age = 1h;
+  config.health.max_blind = 1h;
+  config.plausibility.max_wheel_acceleration_mps2 = 1e6F;
+  config.trust = {.good_inlier_share = 0.0F,
+                  .min_agreement = 0.0F,
+                  .max_correction_m = 100.0F,
+                  .max_correction_rad = 4.0F,
+                  .max_leap_m = 100.0F,
+                  .max_leap_rad = 4.0F,
+                  .max_pull_m = 1e6F,
+                  .max_pull_rad = 1e6F,
+                  .max_wheel_turn_rad = 1e6F,
+                  .max_unmatched = 1h};
+  return config;
+}
+
+[[nodiscard]] inline OnboardCalibrationConfig board_calibration(const ControllerConfig& config,
+                                                                bool software_doubles) {
+  const OnboardCalibrationConfig calibration = onboard_calibration(config);
+  return software_doubles ? for_cortex_m4f(calibration) : calibration;
+}
+
+/// So few points that one slice of their match fits into the background's time.
+using BoardCalibration = OnboardCalibration<240>;
+
+}  // namespace picolo::inline v0

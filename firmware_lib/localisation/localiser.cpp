@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "cell_error.hpp"
 #include "picolo/core/arithmetic.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -232,7 +233,12 @@ void LocaliserCore::conclude() {
     const double turn = between(accepted_map_T_base_, map_T_base_).theta_rad;
     heading_.update(motion, turn, static_cast<double>(report_.covariance(2, 2)) + 1e-4);
   }
-  update_uncertainty();
+  // The walls of a given map and of one that this match founds; later the map is what it is.
+  Matrix3f cell_gradients{};
+  if (localises_only_ || counters_.matched == 1) {
+    cell_gradients = cell_error(sweep_.points, report_.pose, fine_.config().cell_m);
+  }
+  update_uncertainty(cell_gradients);  // beside it, not below: the stack
   accepted_map_T_base_ = map_T_base_;
   accepted_odom_T_base_ = sweep_.odom_T_base;
   accepted_reference_ = reference_;

@@ -7,7 +7,6 @@
 #include <array>
 #include <span>
 
-#include "cell_error.hpp"
 #include "picolo/core/arithmetic.hpp"
 #include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
@@ -90,7 +89,7 @@ std::array<float, 3> LocaliserCore::receding_gradient() const {
 /// The match weighs prediction and scan by their informations: of the prediction's error `kept`
 /// remains, C * prior; the scan's part errs as the residuals say, not as the weights do: with H the
 /// scan's information and the variance of its gradient k H, by k C H C = k (1 - kept) C.
-void LocaliserCore::update_uncertainty() {
+void LocaliserCore::update_uncertainty(const Matrix3f& cell_gradients) {
   const UncertaintyConfig& config = config_.uncertainty;
   const OdometryStep step{
       .map_yaw_rad = static_cast<float>(accepted_map_T_base_.theta_rad),
@@ -112,12 +111,7 @@ void LocaliserCore::update_uncertainty() {
   const Matrix3f share = product(scan_share, fused);
   const Matrix3f scan = scaled(sum(share, transpose(share)), 0.5F * factor);
 
-  // The walls of a given map and of one that this match founds; later the map is what it is.
-  Matrix3f cells{};
-  if (localises_only_ || counters_.matched == 1) {
-    const Matrix3f gradients = cell_error(sweep_.points, report_.pose, fine_.config().cell_m);
-    cells = propagate(share, scaled(gradients, square(information)));
-  }
+  const Matrix3f cells = propagate(share, scaled(cell_gradients, square(information)));
 
   if (!localises_only_) { in_map_.start({}); }
   in_map_.add(config.odometry, step);

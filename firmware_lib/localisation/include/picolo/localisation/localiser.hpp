@@ -263,7 +263,7 @@ class LocaliserCore {
   [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   void conclude();
-  void update_uncertainty();
+  void update_uncertainty(const Matrix3f& cell_gradients);
   [[nodiscard]] std::array<float, 3> receding_gradient() const;
   void start_map_update();
   void add_points(std::size_t max_points, bool hits);

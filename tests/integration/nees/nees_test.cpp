@@ -31,9 +31,12 @@ using TestProfile = RoomProfile;
 
 constexpr double kDistance_m = 10.0;
 constexpr int kDrives = 80;
-constexpr std::uint64_t kSeed = 3001;  // no constant was ever set with a look at these drives
+// The constants were set on others (docs/matching.md says which), but for a last choice of
+// residual_factor and of kDrives that saw the first half of these.
+constexpr std::uint64_t kSeed = 3001;
 // Twelve questions are asked at once: 95 % for all of them together is 0.05 / 12 for each.
 constexpr double kNormal = 2.87;
+constexpr double kRemarkable = 21.0;  // one true drive in 10 000
 constexpr std::array kWorldNames{"room",        "office", "corridor",
                                  "single_wall", "circle", "open_space"};
 
@@ -176,6 +179,13 @@ TEST_P(Nees, MeanIsWithinTheChiSquareBand) {
   for (int i = 0; i < kDrives; ++i) {
     const Sample sample = drive(question, world, first + static_cast<std::uint64_t>(i));
     mean += sample.nees / kDrives;
+    if (sample.nees > kRemarkable) {
+      std::printf(
+          "  seed %d: %.0f, error %.1f mm %.1f mm %.2f mrad, sigma %.1f mm %.1f mm %.2f mrad\n",
+          static_cast<int>(first) + i, sample.nees, 1e3 * sample.error[0], 1e3 * sample.error[1],
+          1e3 * sample.error[2], 1e3 * sample.sigma[0], 1e3 * sample.sigma[1],
+          1e3 * sample.sigma[2]);
+    }
     for (std::size_t k = 0; k < 3; ++k) {
       const double share = sample.error[k] / sample.sigma[k];
       squares[k] += sample.error[k] * sample.error[k] / kDrives;

@@ -15,7 +15,7 @@ namespace picolo::target {
 namespace {
 
 constexpr const char* kFrame = "picolo::(anonymous namespace)::frame(";
-constexpr std::uint32_t kBoundBytes = 3072;
+constexpr std::uint32_t kBoundBytes = 2048;
 
 TEST(Stack, StaticBoundCoversWhatADriveUses) {
   PICOLO_NEED_IMAGES();

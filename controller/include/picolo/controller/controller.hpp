@@ -138,9 +138,7 @@ class Controller {
       case ControllerTask::map:
         if (may_work(PipelineStage::mapping)) { pipeline_.map(work_bound); }
         break;
-      case ControllerTask::background:
-        in_background(work_bound);
-        break;
+      case ControllerTask::background: in_background(work_bound); break;
       case ControllerTask::report: report(); break;
     }
     return true;

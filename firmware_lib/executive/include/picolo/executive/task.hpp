@@ -56,7 +56,8 @@ struct ExecutiveConfig {
   }
 };
 
-/// Sum of the budgets of the fullest minor frame; of alternatives, the longest counts. Precondition: `config` and the entries are valid.
+/// Sum of the budgets of the fullest minor frame; of alternatives, the longest counts.
+/// Precondition: `config` and the entries are valid.
 [[nodiscard]] constexpr Duration worst_frame_budget(const ExecutiveConfig& config,
                                                     std::span<const TaskEntry> table) {
   Duration worst{0};

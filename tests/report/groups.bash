@@ -64,6 +64,9 @@ image_presets=(target-m7 target-m4f target-m55 target-a53 target-aarch64
   image-gcc-O0 image-gcc-O2 image-gcc-O3 image-gcc-avx2
   image-clang-O0 image-clang-O2 image-clang-O3 image-clang-avx2)
 
+# A whole calibration on two emulated boards by their own clock: minutes each; ./run targets and the campaign run it.
+whole_calibration='Saving\.ACalibrationEnds'
+
 has_arm() { command -v arm-none-eabi-g++ && command -v qemu-system-arm; } >/dev/null
 
 # Builds images and names them in PICOLO_TARGETS for the tests that run them.
@@ -126,7 +129,7 @@ long_groups() {
   else
     record "target every-platform" packages skipped 0 "packages for ARM could not be installed"
   fi
-  ctest_rows host-release " slow" --label-regex '(^|-)slow(-|$)'
+  ctest_rows host-release " slow" --label-regex '(^|-)slow(-|$)' --exclude-regex "$whole_calibration"
   local builds=(host-release)
   if build_row host-debug; then
     builds+=(host-debug)
@@ -154,6 +157,7 @@ campaign_groups() {
     ctest_rows host-asan " host-asan" \
       --label-regex '^(unit|property|drivers|ports|integration)(-|$)' --label-exclude '(^|-)slow(-|$)'
   fi
+  ctest_rows host-release " whole-calibration" --tests-regex "$whole_calibration"
   fuzz_groups '^(fuzz|fuzz_long)$'
   lint_row
 }

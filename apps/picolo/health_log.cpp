@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "picolo/controller/pipeline.hpp"
+#include "picolo/simulated/log_config.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -72,25 +73,6 @@ std::string to_lines(const HealthLog& log) {
     text += fmt::format("  and {} more; --json lists all\n", log.changes.size() - shown);
   }
   return text;
-}
-
-MatchTrust trust_of_log(bool in_given_map) {
-  MatchTrust trust{.good_inlier_share = 0.0F,
-                   .min_agreement = 0.0F,
-                   .max_correction_m = 100.0F,
-                   .max_correction_rad = 4.0F,
-                   .max_leap_m = 100.0F,
-                   .max_leap_rad = 4.0F,
-                   .max_pull_m = 1e6F,
-                   .max_pull_rad = 1e6F,
-                   .max_wheel_turn_rad = 1e6F,
-                   .max_unmatched = 1h};
-  if (in_given_map) {
-    trust.min_agreement = 0.7F;
-    trust.max_leap_m = 1.0F;
-    trust.max_leap_rad = 0.6F;
-  }
-  return trust;
 }
 
 ScanHealth::ScanHealth(bool in_given_map)

@@ -41,10 +41,6 @@ struct HealthLog {
 /// One line a change, at most a few dozen, then how many more; and the share of each state.
 [[nodiscard]] std::string to_lines(const HealthLog& log);
 
-/// How far matches of a log are trusted, whose scans may lie a metre of bad odometry apart.
-/// `in_given_map`: what contradicts it tells that the pose is wrong, there is nothing new to see.
-[[nodiscard]] MatchTrust trust_of_log(bool in_given_map);
-
 /// The library's monitor over a log without cycle: judged once a scan, by the matches alone, since
 /// the scans of a log may lie seconds apart.
 class ScanHealth {

@@ -4,7 +4,7 @@
 
 #include <numbers>
 
-#include "health_log.hpp"
+#include "picolo/simulated/log_config.hpp"
 
 namespace picolo::tool {
 namespace {
@@ -23,26 +23,18 @@ sim::LogPlayerConfig player_config() {
 
 ControllerConfig controller_config(const ReplayInput& input, const ReplaySettings& settings) {
   const sim::WheelScriptConfig script = player_config().script;
-  ControllerConfig config;
+  // Corrections that would be contradictions ten times a second are in order here, as they are in
+  // direct replay.
+  ControllerConfig config = on_a_log({}, !settings.map.empty());
   config.drive.counts_per_revolution = 300'000.0;
   config.drive.left_radius_m =
       script.metres_per_count * config.drive.counts_per_revolution / (2.0 * std::numbers::pi);
   config.drive.right_radius_m = config.drive.left_radius_m;
   config.drive.track_m = script.track_m;
-  config.dead_reckoning.use_gyro = false;
-  config.health.expects_gyro = false;
   config.undistort.base_T_lidar = input.scans.front().base_T_lidar;
   config.undistort.limits = input.scans.front().limits;
   config.localiser = settings.localiser;
   config.start_map_T_base = settings.map_T_start.value_or(input.scans.front().odom_T_base);
-  // Corrections that would be contradictions ten times a second are in order here, as they are in
-  // direct replay.
-  config.trust = trust_of_log(!settings.map.empty());
-  config.plausibility.max_wheel_acceleration_mps2 = 1e6F;  // its script starts and stops at once
-  // The lidar of the player turns only while the vehicle stands, and it drives as long as it takes.
-  config.health.max_match_age = 1h;
-  config.health.max_lidar_age = 1h;
-  config.health.max_blind = 1h;
   // of a computer, not of a microcontroller
   config.work.max_returns = 4096;
   config.work.max_point_iterations = 20'000;

@@ -66,7 +66,7 @@ WheelJacobian AckermannDrive::jacobian() const {
 }
 
 EncoderScale AckermannDrive::encoder_scale() const {
-  return {{config_.counts_per_revolution / (2.0 * std::numbers::pi * config_.wheel_radius_m)}};
+  return {{rolled_counts_per_m(config_.counts_per_revolution, config_.wheel_radius_m)}};
 }
 
 }  // namespace picolo::inline v0

@@ -61,10 +61,8 @@ WheelJacobian DifferentialDrive::jacobian() const {
 }
 
 EncoderScale DifferentialDrive::encoder_scale() const {
-  const auto scale = [this](double radius_m) {
-    return config_.counts_per_revolution / (2.0 * std::numbers::pi * radius_m);
-  };
-  return {{scale(config_.left_radius_m), scale(config_.right_radius_m)}};
+  return {{rolled_counts_per_m(config_.counts_per_revolution, config_.left_radius_m),
+           rolled_counts_per_m(config_.counts_per_revolution, config_.right_radius_m)}};
 }
 
 }  // namespace picolo::inline v0

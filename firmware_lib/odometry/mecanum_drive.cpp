@@ -66,8 +66,7 @@ WheelJacobian MecanumDrive::jacobian() const {
 EncoderScale MecanumDrive::encoder_scale() const {
   EncoderScale scale;
   for (std::size_t k = 0; k < kMaxWheels; ++k) {
-    scale.counts_per_m[k] =
-        config_.counts_per_revolution / (2.0 * std::numbers::pi * config_.radius_m[k]);
+    scale.counts_per_m[k] = rolled_counts_per_m(config_.counts_per_revolution, config_.radius_m[k]);
   }
   return scale;
 }

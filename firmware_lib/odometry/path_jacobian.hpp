@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// What the wheel models share: how an increment changes with the path it is the exponential of.
+/// What the wheel models share: what an encoder counts on a metre, and how an increment changes
+/// with the path it is the exponential of.
 #pragma once
 
 #include <cstddef>
+#include <numbers>
 
 #include "picolo/core/math.hpp"
 #include "picolo/core/number_model.hpp"
@@ -13,6 +15,10 @@
 #include "picolo/odometry/wheel_odometry.hpp"
 
 namespace picolo::inline v0 {
+
+[[nodiscard]] inline double rolled_counts_per_m(double counts_per_revolution, double radius_m) {
+  return counts_per_revolution / (2.0 * std::numbers::pi * radius_m);
+}
 
 /// d(x, y, theta of exp_se2(path)) / d(path).
 [[nodiscard]] inline Matrix3d plain_jacobian(const Tangent2<double>& path) {

@@ -89,9 +89,7 @@ class RplidarDialect final : public CommandedLidar {
       add_u16(bytes, dense_ ? points_mm_[i] : std::min(points_mm_[i], 16'383U) << 2U);
       if (!dense_ && i % 2 == 1) { bytes.push_back(0); }  // no beam looks beside its angle
     }
-    const std::uint8_t sum = xor8(ByteView{bytes}.subspan(2));
-    bytes[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
-    bytes[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+    seal_capsule(bytes);
     return bytes;
   }
 

@@ -51,6 +51,12 @@ unsigned predicted(unsigned mm, const Major& base) {
 
 }  // namespace
 
+void seal_capsule(std::vector<std::uint8_t>& capsule) {
+  const unsigned sum = xor8(std::span<const std::uint8_t>{capsule}.subspan(2));
+  capsule[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
+  capsule[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+}
+
 unsigned UltraCapsules::node_mm(std::size_t node) const {
   const double head_deg = start_deg_ + static_cast<double>(node) * kStep_deg;
   auto away = [head_deg](const Point& point) { return std::abs(point.head_deg - head_deg); };
@@ -73,9 +79,7 @@ std::vector<std::uint8_t> UltraCapsules::capsule() const {
             predicted(node_mm(node + 2), next) << 22U,
         4);
   }
-  const unsigned sum = xor8(std::span<const std::uint8_t>{bytes}.subspan(2));
-  bytes[0] = static_cast<std::uint8_t>(0xA0U | (sum & 0xFU));
-  bytes[1] = static_cast<std::uint8_t>(0x50U | (sum >> 4U));
+  seal_capsule(bytes);
   return bytes;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 /// @file
-/// Points into the ultra capsules (0x84) of an RPLIDAR.
+/// Points into the ultra capsules (0x84) of an RPLIDAR; the frame that all of its capsules have.
 #pragma once
 
 #include <cstddef>
@@ -9,6 +9,9 @@
 #include <vector>
 
 namespace picolo::inline v0::devices {
+
+/// Writes the sum over what follows into the first two bytes, four bits beside each mark.
+void seal_capsule(std::vector<std::uint8_t>& capsule);
 
 /// The device samples at even angles of its head, from which each beam looks aside by its optics;
 /// so what a node says is the point whose beam comes nearest.

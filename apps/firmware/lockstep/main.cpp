@@ -11,6 +11,7 @@
 
 #include "picolo/simulated/board_config.hpp"
 #include "picolo/simulated/lockstep_controller.hpp"
+#include "picolo/simulated/log_config.hpp"
 #include "platform.hpp"
 
 namespace picolo {

@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: Apache-2.0
 
 // The robot with a lidar whose port holds the cycle up. Words: what an overrun of the task `serial`
-// means (carry_on, skip_next, fault), in how many frames from the hundredth on the port spins, and
-// for how many microseconds each time (0: it never returns). Figures of 1.5 s go to the debugger,
-// or, after a reset by the watchdog, what the run before left behind, and figures of half a second.
+// means (carry_on, skip_next, fault), in how many frames from the fiftieth on the port spins, and
+// for how many microseconds each time (0: it never returns). Figures of 240 frames go to the
+// debugger, or, after a reset by the watchdog, what the run before left behind and figures of 60.
 
 #include <cstring>
 #include <new>

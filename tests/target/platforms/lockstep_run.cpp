@@ -15,6 +15,7 @@
 
 #include "picolo/simulated/board_config.hpp"
 #include "picolo/simulated/lockstep_controller.hpp"
+#include "picolo/simulated/log_config.hpp"
 
 namespace picolo::target {
 namespace {

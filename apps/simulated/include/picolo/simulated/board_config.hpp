@@ -23,28 +23,6 @@ inline constexpr bool kSoftwareDoubles = false;
   return software_doubles ? for_cortex_m4f(config) : config;
 }
 
-/// For a recorded log on the wires of the simulated vehicle (sim::LogPlayer): it has no IMU, starts
-/// and stops at once, and takes its scans standing.
-[[nodiscard]] constexpr ControllerConfig on_a_log(ControllerConfig config) {
-  config.dead_reckoning.use_gyro = false;
-  config.health.expects_gyro = false;
-  config.health.max_match_age = 1h;
-  config.health.max_lidar_age = 1h;
-  config.health.max_blind = 1h;
-  config.plausibility.max_wheel_acceleration_mps2 = 1e6F;
-  config.trust = {.good_inlier_share = 0.0F,
-                  .min_agreement = 0.0F,
-                  .max_correction_m = 100.0F,
-                  .max_correction_rad = 4.0F,
-                  .max_leap_m = 100.0F,
-                  .max_leap_rad = 4.0F,
-                  .max_pull_m = 1e6F,
-                  .max_pull_rad = 1e6F,
-                  .max_wheel_turn_rad = 1e6F,
-                  .max_unmatched = 1h};
-  return config;
-}
-
 [[nodiscard]] inline OnboardCalibrationConfig board_calibration(const ControllerConfig& config,
                                                                 bool software_doubles) {
   const OnboardCalibrationConfig calibration = onboard_calibration(config);

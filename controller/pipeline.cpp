@@ -5,10 +5,16 @@
 
 #include <algorithm>
 
+#include "picolo/core/arithmetic.hpp"
+#include "picolo/core/number_model.hpp"
+#include "picolo/geometry/angle.hpp"
+
 namespace picolo::inline v0 {
 namespace {
 
-constexpr Duration kCoastStep = 10ms;  // between poses, as wheels give them
+constexpr Duration kCoastStep = 10ms;     // between poses, as wheels give them
+constexpr float kStraight_radps = 0.2F;   // faster, errors of the gyro's scale look like bias
+constexpr float kMostByBias_rad = 0.02F;  // from one match to the next
 
 }  // namespace
 
@@ -168,6 +174,26 @@ void Pipeline::learn_twist() {
                   static_cast<float>(way.theta_rad / since_s)};
 }
 
+/// What matches turn further than the odometry, second by second, is the gyro's bias.
+void Pipeline::learn_gyro_bias() {
+  const Duration since = localiser_.reference() - verdict_.reference;
+  const bool compared = verdict_.accepted && localiser_.accepted() && !localiser_.relocalised() &&
+                        !localiser_.predicts_loosely() && since > Duration{0} &&
+                        since <= coast_.max_age &&
+                        localiser_.report().outcome != MatchOutcome::degenerate;
+  if (!compared || !dead_reckoning_.turns_by_gyro() || doubts() != 0) { return; }
+  const auto turned_rad = wrap_angle(static_cast<float>(
+      undistorter_.result().odom_T_base.theta_rad - verdict_.odom_T_base.theta_rad));
+  const auto further_rad = wrap_angle(
+      static_cast<float>(localiser_.map_T_base().theta_rad - verdict_.map_T_base.theta_rad) -
+      turned_rad);
+  if (magnitude(turned_rad) > kStraight_radps * to_seconds(since) ||
+      magnitude(further_rad) > kMostByBias_rad) {
+    return;
+  }
+  dead_reckoning_.correct_bias(further_rad);
+}
+
 void Pipeline::take_sweep() {
   if (stage_ == PipelineStage::undistorting) { ++counters_.sweeps_replaced; }
   const Sweep sweep = sweeps_.take();
@@ -232,6 +258,7 @@ bool Pipeline::search(std::size_t max_slices) {
 bool Pipeline::conclude() {
   const MatchReport& report = localiser_.report();
   learn_twist();
+  learn_gyro_bias();
   verdict_.guessed = localiser_.predicts_loosely();
   verdict_.relocalised = localiser_.relocalised();
   verdict_.accepted = localiser_.accepted();

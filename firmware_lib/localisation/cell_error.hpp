@@ -5,7 +5,7 @@
 #pragma once
 
 #include "picolo/geometry/matrix3.hpp"
-#include "picolo/geometry/pose2.hpp"
+#include "picolo/matching/match_report.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
@@ -18,9 +18,12 @@ namespace picolo::inline v0 {
 /// across. In waves: each multiple of (h, k) over the cell's size adds
 /// cell^2 / (2 pi^2 |multiple|^2) times the squared sum of the points' gradients, each with the
 /// wave's phase at the point. Walls that cross their cells evenly cancel; stairs a few metres long
-/// turn the sum. Neighbours on a wall, eight at a time, stand for one place.
+/// turn the sum. Where all walls run the same way the sweep itself turns with such a stair, and its
+/// phases no longer tell of it: there the waves are summed as well for a wall that is turned by one
+/// stair over all that is seen, either way. Neighbours on a wall, eight at a time, stand for one
+/// place.
 /// Cost: O(points), about 55 instructions a point. Context: cycle only.
-[[nodiscard]] Matrix3f cell_error(const PointsView& points, const Pose2f& window_T_base,
+[[nodiscard]] Matrix3f cell_error(const PointsView& points, const MatchReport& report,
                                   float cell_m);
 
 }  // namespace picolo::inline v0

@@ -17,6 +17,11 @@ namespace {
 
 constexpr std::size_t kPointsPerInsertStep = 4096;  // of `process`; any number gives the same map
 
+/// A vehicle that has moved less sees the same walls in the same way: how far they may be off does
+/// not change from one match to the next.
+constexpr float kSameView_m = 0.15F;
+constexpr float kSameView_rad = 0.3F;
+
 /// What one ray of `map_step` stands for: so many cells walked over; one that changes is three
 /// more.
 constexpr std::uint32_t kWorkPerRay = 128;
@@ -71,6 +76,7 @@ Status LocaliserCore::begin_adopting() {
   fine_.mark_all_stale();
   coarse_.mark_all_stale();
   adopted_rows_ = 0;
+  has_cell_error_ = false;
   localises_only_ = true;
   verify(true);
   return Status::ok;
@@ -234,11 +240,18 @@ void LocaliserCore::conclude() {
     heading_.update(motion, turn, static_cast<double>(report_.covariance(2, 2)) + 1e-4);
   }
   // The walls of a given map and of one that this match founds; later the map is what it is.
-  Matrix3f cell_gradients{};
-  if (localises_only_ || counters_.matched == 1) {
-    cell_gradients = cell_error(sweep_.points, report_.pose, fine_.config().cell_m);
+  const bool walls_count = localises_only_ || counters_.matched == 1;
+  const Pose2f& seen_from = cell_error_from_;
+  const bool moved = hypotenuse(report_.pose.x_m - seen_from.x_m,
+                                report_.pose.y_m - seen_from.y_m) > kSameView_m ||
+                     magnitude(report_.pose.theta_rad - seen_from.theta_rad) > kSameView_rad;
+  if (walls_count && (moved || !has_cell_error_)) {
+    cell_error_ = cell_error(sweep_.points, report_, fine_.config().cell_m);
+    cell_error_from_ = report_.pose;
+    has_cell_error_ = true;
   }
-  update_uncertainty(cell_gradients);  // beside it, not below: the stack
+  // Beside it, not below: the stack.
+  update_uncertainty(walls_count ? cell_error_ : Matrix3f{});
   accepted_map_T_base_ = map_T_base_;
   accepted_odom_T_base_ = sweep_.odom_T_base;
   accepted_reference_ = reference_;

@@ -19,11 +19,29 @@ constexpr Duration kShortestForSpeed = 1ms;
 
 DeadReckoning::DeadReckoning(const DeadReckoningConfig& config) : config_(config) {}
 
-void DeadReckoning::learn_bias(double rate_radps) {
+void DeadReckoning::add_standing(Timestamp stamp, double rate_radps) {
   const auto limit = static_cast<double>(config_.max_bias_radps);
   if (rate_radps > limit || rate_radps < -limit) { return; }
-  bias_count_ = std::min(bias_count_ + 1, config_.bias_samples);
-  bias_radps_ += (rate_radps - bias_radps_) / static_cast<double>(bias_count_);
+  if (block_.samples == 0) { block_since_ = stamp; }
+  if (stamp - block_since_ >= config_.standstill_block) {
+    if (last_block_.samples > 0) {
+      const int samples = last_block_.samples;
+      bias_count_ = std::min(bias_count_ + samples, config_.bias_samples);
+      bias_radps_ += (last_block_.sum_radps - static_cast<double>(samples) * bias_radps_) /
+                     static_cast<double>(std::max(bias_count_, samples));
+    }
+    last_block_ = block_;
+    block_ = {};
+    block_since_ = stamp;
+  }
+  block_.sum_radps += rate_radps;
+  ++block_.samples;
+}
+
+void DeadReckoning::correct_bias(float turned_further_rad) {
+  const float limit = config_.max_bias_radps;
+  const float share_radps = turned_further_rad / to_seconds(config_.bias_follows);
+  bias_radps_ = static_cast<double>(std::clamp(gyro_bias_radps() - share_radps, -limit, limit));
 }
 
 void DeadReckoning::add(const ImuSample& sample) {
@@ -33,8 +51,11 @@ void DeadReckoning::add(const ImuSample& sample) {
   }
   const double raw_radps =
       static_cast<double>(config_.gyro_sign * config_.gyro_scale * sample.rate_radps[2]);
-  if (standing_ && !bias_held_ && sample.stamp - standing_since_ >= config_.standstill) {
-    learn_bias(raw_radps);
+  if (!standing_ || bias_held_) {
+    block_ = {};
+    last_block_ = {};
+  } else if (sample.stamp - standing_since_ >= config_.standstill) {
+    add_standing(sample.stamp, raw_radps);
   }
   GyroAngle next{.stamp = sample.stamp, .rate_radps = raw_radps - bias_radps_};
   if (held_ > 0) {

@@ -56,6 +56,25 @@ INSTANTIATE_TEST_SUITE_P(Scenes, Tracking, ::testing::Values(SceneName::room, Sc
                            return param.param == SceneName::room ? "Room" : "Office";
                          });
 
+TEST(Controller, GivenAGyroThatWarmsUpThenItsBiasIsFollowedWhileDriving) {
+  sim::SimulationConfig simulation = test::drive_in(SceneName::room);
+  simulation.imu.rate_walk_sigma_radps = 1e-4;  // 8 mrad/s in a minute
+  Drive drive{simulation};
+  drive.until(1s);
+  const double before_radps = drive.robot().simulation().imu().rate_bias_radps()[2];
+  double walked_radps = 0.0;
+  double worst_radps = 0.0;
+  drive.until(120s, [&](const Publication& publication) {
+    const double bias_radps = drive.robot().simulation().imu().rate_bias_radps()[2];
+    const float learnt_radps = drive.controller().pipeline().odometry().gyro_bias_radps();
+    walked_radps = std::max(walked_radps, std::abs(bias_radps - before_radps));
+    worst_radps = std::max(worst_radps, std::abs(bias_radps - static_cast<double>(learnt_radps)));
+    EXPECT_EQ(publication.estimate.state, HealthState::tracking);
+  });
+  EXPECT_GT(walked_radps, 0.015) << "otherwise there was nothing to follow";
+  EXPECT_LT(worst_radps, 0.5 * walked_radps);
+}
+
 TEST(Controller, GivenTheStartThenInitialisingUntilTheFirstMatchesAgree) {
   Drive drive{test::drive_in(SceneName::room)};
   EXPECT_EQ(drive.controller().estimate().state, HealthState::initialising);

@@ -100,7 +100,8 @@ void drive(const Choice& choice) {
 
 TEST(SimulatedDevices, GivenEachDeviceInTurnThenTheVehicleKnowsWhereItIs) {
   for (const Choice& choice :
-       {Choice{"canopen", "ld06", "witmotion", 0.15}, Choice{"odrive", "rplidar", "xsens", 0.15},
+       {Choice{"canopen", "ld06", "witmotion", 0.15}, Choice{"vesc", "ld06", "witmotion", 0.15},
+        Choice{"odrive", "rplidar", "xsens", 0.15},
         Choice{"vesc", "ydlidar", "bno08x-rvc", 0.25, "tmini"},
         Choice{"dbc", "rplidar", "vectornav", 0.15, "dense"},
         Choice{"odrive", "rplidar", "xsens", 0.15, "ultra"},

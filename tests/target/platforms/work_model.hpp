@@ -116,7 +116,7 @@ inline constexpr UnitCosts kCortexM7{.can_frame = 520,
                                      .lookup = 14,
                                      .plane = 35'000,
                                      .node = 4'000,
-                                     .calibration = 600'000};
+                                     .calibration = 680'000};
 /// Double precision in software: dear per sweep and per cycle, not per point.
 inline constexpr UnitCosts kCortexM4F{.can_frame = 520,
                                       .command = 26'000,

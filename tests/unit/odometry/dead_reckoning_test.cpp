@@ -102,6 +102,35 @@ TEST(DeadReckoning, BiasIsLearntAtStandstillOnly) {
   EXPECT_NEAR(reckoning.pose().odom_T_base.theta_rad - before, 0.5 * 3.0, 0.01);
 }
 
+TEST(DeadReckoning, GivenACoarseEncoderThenAStartTeachesNoBias) {
+  DeadReckoning reckoning;
+  constexpr double kBias = 0.004;
+  // The vehicle turns from 1100 ms on, the wheels count 150 ms later.
+  for (int ms = 0; ms <= 1250; ms += 10) {
+    reckoning.add(gyro(ms, ms < 1100 ? kBias : kBias + 0.001 * (ms - 1100)));
+    if (ms > 0) { reckoning.add(wheels(ms - 10, ms, 0.0, ms < 1250 ? 0.0 : 0.004)); }
+  }
+  EXPECT_NEAR(reckoning.gyro_bias_radps(), kBias, 1e-6);
+}
+
+TEST(DeadReckoning, MatchesDrawTheBiasTowardsTheirHeadings) {
+  const DeadReckoningConfig config{.bias_follows = 5s};
+  DeadReckoning reckoning{config};
+  constexpr double kBias = 0.02;
+  double heading_rad = 0.0;
+  for (int ms = 0; ms <= 10'000; ms += 10) {
+    reckoning.add(gyro(ms, kBias));
+    if (ms > 0) { reckoning.add(wheels(ms - 10, ms, 0.01, 0.0)); }
+    if (ms % 100 != 0) { continue; }
+    const double now_rad = reckoning.pose().odom_T_base.theta_rad;
+    reckoning.correct_bias(static_cast<float>(heading_rad - now_rad));  // it drives straight on
+    heading_rad = now_rad;
+  }
+  EXPECT_NEAR(reckoning.gyro_bias_radps(), kBias * (1.0 - std::exp(-2.0)), 5e-4);
+  reckoning.correct_bias(-10.0F);
+  EXPECT_EQ(reckoning.gyro_bias_radps(), config.max_bias_radps);
+}
+
 TEST(DeadReckoning, APushedVehicleTeachesNoBias) {
   DeadReckoning reckoning;
   for (int ms = 0; ms <= 3000; ms += 10) {

@@ -146,6 +146,7 @@ class Pipeline {
   void doubt_wheels(std::uint8_t encoders, Timestamp stamp);
   void take_sweep();
   void learn_twist();
+  void learn_gyro_bias();
   /// True when the end of the match is to be told.
   [[nodiscard]] bool conclude();
 

@@ -297,7 +297,10 @@ class LocaliserCore {
   Pose2d accepted_odom_T_base_{};  // ... the odometry at its instant
   HeadingCorrection heading_;
   MotionUncertainty in_map_{};
-  Matrix3f in_map_error_{};  // what all sweeps here have in common: the map's cells
+  Matrix3f in_map_error_{};   // what all sweeps here have in common: the map's cells
+  Matrix3f cell_error_{};     // of the gradients, seen from the pose below
+  Pose2f cell_error_from_{};  // window axes
+  bool has_cell_error_ = false;
   MotionUncertainty drift_{};
   Pose2d last_inserted_{};
   Pose2f last_correction_{};

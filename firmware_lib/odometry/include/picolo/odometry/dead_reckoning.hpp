@@ -21,13 +21,19 @@ struct DeadReckoningConfig {
   float gyro_scale = 1.0F;  ///< true rate over measured rate, see GyroCalibration
   /// The last rate holds for at most this long; beyond it the wheels turn alone.
   Duration gyro_hold = 25ms;
-  Duration standstill = 500ms;  ///< wheels without a count for this long: the gyro shows its bias
+  Duration standstill = 400ms;  ///< wheels without a count for this long: the gyro shows its bias
   /// A larger rate at standstill is no bias (somebody pushes the vehicle).
   float max_bias_radps = 0.15F;
   int bias_samples = 200;  ///< averaging length of the bias
+  /// At standstill samples are averaged over blocks of this length, and a block counts only when
+  /// the wheels stood during the whole next one: a coarse encoder counts late after a start.
+  Duration standstill_block = 100ms;
+  /// Headings of matches draw the bias towards theirs with this time constant.
+  Duration bias_follows = 10s;
   [[nodiscard]] constexpr bool valid() const {
     return gyro_hold >= Duration{0} && standstill > Duration{0} && max_bias_radps > 0.0F &&
-           bias_samples > 0 && gyro_scale > 0.0F && (gyro_sign == 1.0F || gyro_sign == -1.0F);
+           bias_samples > 0 && standstill_block > Duration{0} && bias_follows > Duration{0} &&
+           gyro_scale > 0.0F && (gyro_sign == 1.0F || gyro_sign == -1.0F);
   }
 };
 
@@ -48,6 +54,10 @@ class DeadReckoning {
   /// While held, nothing is learnt of the gyro's bias: wheels stand, yet something moves the
   /// vehicle.
   void hold_bias(bool held) { bias_held_ = held; }
+  /// A match says that over the time since the last one the vehicle has turned further than
+  /// `pose()` by this much: what differs over seconds is the gyro's bias. Precondition: the gyro
+  /// told the turn, and the vehicle turned little, or errors of scale are taken for bias.
+  void correct_bias(float turned_further_rad);
   /// Advances odom_T_base to the end of the increment.
   void add(const WheelIncrement& increment);
 
@@ -68,11 +78,15 @@ class DeadReckoning {
     double angle_rad = 0.0;  ///< integral of rate minus bias
     double rate_radps = 0.0;
   };
+  struct StandingBlock {
+    double sum_radps = 0.0;
+    int samples = 0;
+  };
   static constexpr std::size_t kAngles = 16;
 
   [[nodiscard]] const GyroAngle& newest() const { return angles_[(next_ + kAngles - 1) % kAngles]; }
   [[nodiscard]] Result<double> gyro_angle_at(Timestamp stamp) const;
-  void learn_bias(double rate_radps);
+  void add_standing(Timestamp stamp, double rate_radps);
 
   DeadReckoningConfig config_;
   StampedPose pose_{};
@@ -82,6 +96,9 @@ class DeadReckoning {
   std::size_t held_ = 0;
   double bias_radps_ = 0.0;
   int bias_count_ = 0;
+  StandingBlock block_{};       // at standstill
+  StandingBlock last_block_{};  // complete, yet the wheels may have been about to count
+  Timestamp block_since_{};
   Timestamp standing_since_{};
   bool standing_ = false;
   bool bias_held_ = false;

@@ -22,7 +22,7 @@ namespace picolo::inline v0 {
 /// phases no longer tell of it: there the waves are summed as well for a wall that is turned by one
 /// stair over all that is seen, either way. Neighbours on a wall, eight at a time, stand for one
 /// place.
-/// Cost: O(points), about 55 instructions a point. Context: cycle only.
+/// Cost: O(points), about 130 instructions a point. Context: cycle only.
 [[nodiscard]] Matrix3f cell_error(const PointsView& points, const MatchReport& report,
                                   float cell_m);
 

@@ -50,12 +50,12 @@ void draw(const DemoResult& result, const DemoSettings& settings, const host::Ap
   host::Picture picture;
   picture.title = "picolo demo: CAN frames and serial bytes to a pose";
   picture.note = fmt::format(
-      "simulated drive of {} s, seed {}: error {:.3f} m rmse, odometry alone {:.2f} m",
+      "simulated drive of {} s, seed {}: error {:.3f} m rmse, odometry {:.2f} m",
       settings.seconds, settings.seed, ape.statistics.rmse, ape_odometry.statistics.rmse);
   picture.maps.push_back(result.map);
   picture.lines.push_back(trajectory_line(result.truth, host::palette::kTruth, 7.0, "truth"));
   picture.lines.push_back(
-      trajectory_line(result.odometry, host::palette::kOdometry, 2.0, "wheels and gyro alone"));
+      trajectory_line(result.odometry, host::palette::kOdometry, 2.0, "odometry: wheels and gyro"));
   picture.lines.push_back(
       trajectory_line(result.trajectory, host::palette::kPicolo, 2.0, "picolo"));
   write_picture(picture, folder, "picture");
@@ -93,7 +93,7 @@ void report(const DemoResult& result, const DemoSettings& settings, const host::
   }
   fmt::print(
       "{} s, {} scans, {} matched; {} at the end, tracking {:.1f} % of the time\n"
-      "error {:.3f} m rmse ({:.3f} m at most), wheels and gyro alone {:.3f} m\n"
+      "error {:.3f} m rmse ({:.3f} m at most), odometry of wheels and gyro {:.3f} m\n"
       "{} heap calls in the cycle\n",
       settings.seconds, result.counters.sweeps, result.counters.matched, to_string(result.state),
       100.0 * result.tracking_share, ape.statistics.rmse, ape.statistics.max,

@@ -161,13 +161,18 @@ void Pipeline::coast(Timestamp now) {
   ++counters_.coasted;
 }
 
+/// From the last match to the one that ends, where both tell the same way; else nothing.
+Duration Pipeline::since_compared() const {
+  const Duration since = localiser_.reference() - verdict_.reference;
+  const bool compared = verdict_.accepted && localiser_.accepted() && !localiser_.relocalised() &&
+                        since <= coast_.max_age;
+  return compared ? std::max(since, Duration{0}) : Duration{0};
+}
+
 /// From this match and the last: no wheels are needed for it.
 void Pipeline::learn_twist() {
-  const Duration since = localiser_.reference() - verdict_.reference;
-  if (!verdict_.accepted || !localiser_.accepted() || since <= Duration{0} ||
-      since > coast_.max_age || localiser_.relocalised()) {
-    return;
-  }
+  const Duration since = since_compared();
+  if (since == Duration{0}) { return; }
   const double since_s = to_seconds_f64(since);
   const Tangent2<double> way = log_se2(between(verdict_.map_T_base, localiser_.map_T_base()));
   coast_twist_ = {static_cast<float>(way.x_m / since_s), static_cast<float>(way.y_m / since_s),
@@ -176,12 +181,10 @@ void Pipeline::learn_twist() {
 
 /// What matches turn further than the odometry, second by second, is the gyro's bias.
 void Pipeline::learn_gyro_bias() {
-  const Duration since = localiser_.reference() - verdict_.reference;
-  const bool compared = verdict_.accepted && localiser_.accepted() && !localiser_.relocalised() &&
-                        !localiser_.predicts_loosely() && since > Duration{0} &&
-                        since <= coast_.max_age &&
-                        localiser_.report().outcome != MatchOutcome::degenerate;
-  if (!compared || !dead_reckoning_.turns_by_gyro() || doubts() != 0) { return; }
+  const Duration since = since_compared();
+  const bool tells = since > Duration{0} && !localiser_.predicts_loosely() &&
+                     localiser_.report().outcome != MatchOutcome::degenerate;
+  if (!tells || !dead_reckoning_.turns_by_gyro() || doubts() != 0) { return; }
   const auto turned_rad = wrap_angle(static_cast<float>(
       undistorter_.result().odom_T_base.theta_rad - verdict_.odom_T_base.theta_rad));
   const auto further_rad = wrap_angle(

@@ -214,6 +214,13 @@ bool LocaliserCore::match_step() {
   return true;
 }
 
+bool LocaliserCore::sees_the_same() const {
+  const Pose2f& now = report_.pose;
+  const Pose2f& then = cell_error_from_;
+  return has_cell_error_ && hypotenuse(now.x_m - then.x_m, now.y_m - then.y_m) <= kSameView_m &&
+         magnitude(now.theta_rad - then.theta_rad) <= kSameView_rad;
+}
+
 void LocaliserCore::conclude() {
   ++counters_.outcomes[static_cast<std::size_t>(report_.outcome)];
   accepted_ = usable(report_.outcome) && report_.inlier_share >= config_.min_inlier_share;
@@ -241,11 +248,7 @@ void LocaliserCore::conclude() {
   }
   // The walls of a given map and of one that this match founds; later the map is what it is.
   const bool walls_count = localises_only_ || counters_.matched == 1;
-  const Pose2f& seen_from = cell_error_from_;
-  const bool moved = hypotenuse(report_.pose.x_m - seen_from.x_m,
-                                report_.pose.y_m - seen_from.y_m) > kSameView_m ||
-                     magnitude(report_.pose.theta_rad - seen_from.theta_rad) > kSameView_rad;
-  if (walls_count && (moved || !has_cell_error_)) {
+  if (walls_count && !sees_the_same()) {
     cell_error_ = cell_error(sweep_.points, report_, fine_.config().cell_m);
     cell_error_from_ = report_.pose;
     has_cell_error_ = true;

@@ -145,6 +145,7 @@ class Pipeline {
   void doubt(SensorIndex sensor, Timestamp stamp);
   void doubt_wheels(std::uint8_t encoders, Timestamp stamp);
   void take_sweep();
+  [[nodiscard]] Duration since_compared() const;
   void learn_twist();
   void learn_gyro_bias();
   /// True when the end of the match is to be told.

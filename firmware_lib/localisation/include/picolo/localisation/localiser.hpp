@@ -262,6 +262,8 @@ class LocaliserCore {
   void note_fit();
   [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
+  /// From where cell_error_ was found.
+  [[nodiscard]] bool sees_the_same() const;
   void conclude();
   void update_uncertainty(const Matrix3f& cell_gradients);
   [[nodiscard]] std::array<float, 3> receding_gradient() const;

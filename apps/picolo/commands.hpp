@@ -4,11 +4,14 @@
 /// The commands of the picolo tool: each adds itself to the command line and runs.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
 #include <string>
 
 #include "picolo/host/error.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace picolo::tool {
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: picolo contributors
 // SPDX-License-Identifier: Apache-2.0
 #include <fmt/format.h>
+#include <CLI/CLI.hpp>
 
 #include <filesystem>
 #include <memory>
@@ -50,8 +51,8 @@ void draw(const DemoResult& result, const DemoSettings& settings, const host::Ap
   host::Picture picture;
   picture.title = "picolo demo: CAN frames and serial bytes to a pose";
   picture.note = fmt::format(
-      "simulated drive of {} s, seed {}: error {:.3f} m rmse, odometry {:.2f} m",
-      settings.seconds, settings.seed, ape.statistics.rmse, ape_odometry.statistics.rmse);
+      "simulated drive of {} s, seed {}: error {:.3f} m rmse, odometry {:.2f} m", settings.seconds,
+      settings.seed, ape.statistics.rmse, ape_odometry.statistics.rmse);
   picture.maps.push_back(result.map);
   picture.lines.push_back(trajectory_line(result.truth, host::palette::kTruth, 7.0, "truth"));
   picture.lines.push_back(

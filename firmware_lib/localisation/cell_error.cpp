@@ -15,8 +15,8 @@
 namespace picolo::inline v0 {
 namespace {
 
-constexpr std::size_t kStride = 2;  // half of the points tell as much
-constexpr std::size_t kBlock = 4;   // of these
+constexpr std::size_t kStride = 3;  // a third of the points tell as much
+constexpr std::size_t kBlock = 3;   // of these
 constexpr float kGap_m = 1.0F;      // between neighbours on one wall, at most
 constexpr std::int32_t kFar = 1 << 20;
 
@@ -50,6 +50,16 @@ constexpr std::size_t multiples_of(std::span<const Waves> waves) {
   for (const Waves& wave : waves) { count += static_cast<std::size_t>(wave.multiples); }
   return count;
 }
+constexpr float kAsTheyAre = 1.0F;
+constexpr float kFalling = -1.0F;
+struct Set {
+  std::span<const Waves> waves;
+  float side = kAsTheyAre;
+};
+/// In the order of their sums.
+constexpr std::array<Set, 4> kSets{
+    {{kAlongCells, kAsTheyAre}, {kRising, kAsTheyAre}, {kRising, kFalling}, {kTurned, kAsTheyAre}}};
+
 constexpr std::size_t kFirstRising = multiples_of(kAlongCells);
 constexpr std::size_t kFirstFalling = kFirstRising + multiples_of(kRising);
 constexpr std::size_t kFirstTurned = kFirstFalling + multiples_of(kRising);
@@ -57,10 +67,11 @@ constexpr std::size_t kSums = kFirstTurned + multiples_of(kTurned);
 constexpr float kStair = 0.25F;           // see Stairs
 constexpr float kHardlyParallel = 0.05F;  // gradients of so small a share add nothing
 
-/// Gradients of one wave, its cosine and its sine, over all blocks.
+/// Of one wave, its cosine and its sine over all blocks: its weight, and its torque about the
+/// vehicle. All its gradients in x and y are the wave vector.
 struct Sum {
-  std::array<float, 3> cosine{};
-  std::array<float, 3> sine{};
+  SinCos<float> weight{};
+  SinCos<float> torque{};
 };
 
 /// Where all walls run the same way, a sweep can turn until a stair of cells looks like a wall to
@@ -92,8 +103,6 @@ struct Stretch {
   Point2f arm_m{};
   float per_cell = 1.0F;
 };
-constexpr float kAsTheyAre = 1.0F;
-constexpr float kFalling = -1.0F;
 
 // Four copies of it would be as fast and fill a kilobyte of flash.
 [[gnu::noinline]] void add_waves(std::span<const Waves> waves, float side, const Stretch& stretch,
@@ -112,18 +121,17 @@ constexpr float kFalling = -1.0F;
     const float gain = wave.turned != 0 ? stairs.parallel * wave.gain : wave.gain;
     const float share = place - static_cast<float>(floor_to_i32(place, -kFar, kFar));
     const SinCos<float> phase = sin_cos(2.0F * std::numbers::pi_v<float> * share);
-    const std::array<float, 3> gradient{x, y, y * arm.x_m - x * arm.y_m};
+    const float torque = y * arm.x_m - x * arm.y_m;
     SinCos<float> turned = phase;
     for (int m = 1; m <= wave.multiples; ++m) {
       const auto multiple = static_cast<float>(m);
       const float coherence = 1.0F - square(multiple * cycles);
       if (!(coherence > 0.0F)) { break; }
       const float weight = gain * stretch.count * coherence / multiple;
+      const SinCos<float> part{weight * turned.sine, weight * turned.cosine};
       Sum& sum = first[m - 1];
-      for (std::size_t i = 0; i < 3; ++i) {
-        sum.cosine[i] += weight * turned.cosine * gradient[i];
-        sum.sine[i] += weight * turned.sine * gradient[i];
-      }
+      sum.weight = {sum.weight.sine + part.sine, sum.weight.cosine + part.cosine};
+      sum.torque = {sum.torque.sine + torque * part.sine, sum.torque.cosine + torque * part.cosine};
       turned = {turned.sine * phase.cosine + turned.cosine * phase.sine,
                 turned.cosine * phase.cosine - turned.sine * phase.sine};
     }
@@ -177,23 +185,34 @@ Matrix3f cell_error(const PointsView& points, const MatchReport& report, float c
   }
   add(block, per_cell, stairs, sums);
 
-  constexpr float kSquareOfWave =
-      2.0F * std::numbers::pi_v<float> * std::numbers::pi_v<float>;  // of a saw tooth's
-  const float variance_m2 = square(cell_m * static_cast<float>(kStride)) / kSquareOfWave;
   Matrix3f covariance{};
-  for (const Sum& sum : sums) {
-    if (sum.cosine == Sum{}.cosine && sum.sine == Sum{}.sine) { continue; }
-    for (std::size_t row = 0; row < 3; ++row) {
-      for (std::size_t column = 0; column <= row; ++column) {
-        covariance(row, column) +=
-            variance_m2 * (sum.cosine[row] * sum.cosine[column] + sum.sine[row] * sum.sine[column]);
+  const Sum* sum = sums.data();
+  for (const Set& set : kSets) {
+    for (const Waves& wave : set.waves) {
+      const auto x = static_cast<float>(wave.x);
+      const float y = set.side * static_cast<float>(wave.y);
+      for (int m = 1; m <= wave.multiples; ++m, ++sum) {
+        const SinCos<float>& w = sum->weight;
+        const SinCos<float>& t = sum->torque;
+        const float ww = w.cosine * w.cosine + w.sine * w.sine;
+        const float wt = w.cosine * t.cosine + w.sine * t.sine;
+        covariance(0, 0) += x * x * ww;
+        covariance(1, 0) += x * y * ww;
+        covariance(1, 1) += y * y * ww;
+        covariance(2, 0) += x * wt;
+        covariance(2, 1) += y * wt;
+        covariance(2, 2) += t.cosine * t.cosine + t.sine * t.sine;
       }
     }
   }
   covariance(0, 1) = covariance(1, 0);
   covariance(0, 2) = covariance(2, 0);
   covariance(1, 2) = covariance(2, 1);
-  return covariance;
+
+  constexpr float kSquareOfWave =
+      2.0F * std::numbers::pi_v<float> * std::numbers::pi_v<float>;  // of a saw tooth's
+  const float variance_m2 = square(cell_m * static_cast<float>(kStride)) / kSquareOfWave;
+  return scaled(covariance, variance_m2);
 }
 
 }  // namespace picolo::inline v0

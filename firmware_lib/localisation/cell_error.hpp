@@ -20,9 +20,9 @@ namespace picolo::inline v0 {
 /// wave's phase at the point. Walls that cross their cells evenly cancel; stairs a few metres long
 /// turn the sum. Where all walls run the same way the sweep itself turns with such a stair, and its
 /// phases no longer tell of it: there the waves are summed as well for a wall that is turned by one
-/// stair over all that is seen, either way. Neighbours on a wall, eight at a time, stand for one
+/// stair over all that is seen, either way. Neighbours on a wall, nine at a time, stand for one
 /// place.
-/// Cost: O(points), about 130 instructions a point. Context: cycle only.
+/// Cost: O(points), about 110 instructions a point. Context: cycle only.
 [[nodiscard]] Matrix3f cell_error(const PointsView& points, const MatchReport& report,
                                   float cell_m);
 

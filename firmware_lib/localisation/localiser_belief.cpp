@@ -95,7 +95,7 @@ void LocaliserCore::update_uncertainty(const Matrix3f& cell_gradients) {
       .map_yaw_rad = static_cast<float>(accepted_map_T_base_.theta_rad),
       .motion = to_f32(between(accepted_odom_T_base_, sweep_.odom_T_base)),
       .elapsed_s = static_cast<float>(to_seconds_f64(reference_ - accepted_reference_))};
-  const Conditioning conditioning = conditioning_of(report_.scan_information, report_.length_m);
+  const Conditioning& conditioning = report_.conditioning;
   const Matrix3f& prior = report_prior_;
   const NormalEquations3 constrained = observable_part({report_.scan_information, {}}, conditioning,
                                                        report_.length_m, config.max_condition);

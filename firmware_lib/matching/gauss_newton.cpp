@@ -75,8 +75,7 @@ bool GaussNewtonMatcher<Field>::step() {
   report_.cost = cost_of(sums, config_, field_.reach_m, request_, report_.pose);
   NormalEquations3 system = scaled_system(sums, information_scale(sums, config_, field_.reach_m));
   report_.scan_information = system.h;
-  const Conditioning conditioning = conditioning_of(system.h, length_m_);
-  report_.condition = conditioning.condition;
+  const Conditioning& conditioning = report_.conditioning = conditioning_of(system.h, length_m_);
   const bool degenerate = !(conditioning.condition <= config_.max_condition);
   const bool with_prior = is_prior(request_.prior);
   report_.open_directions = open_directions(conditioning, config_.max_condition);

@@ -169,7 +169,9 @@ bool IcpMatcherCore::improve(float limit_m2, Pose2f& pose) {
       {s * count, 0.0F, s * xt, 0.0F, s * count, s * yt, s * xt, s * yt, s * tt}};
   report_.covariance = covariance_of(report_.scan_information, kUnknownVariance);
   const float length_m = std::max(0.1F, square_root(tt / count));
-  report_.condition = conditioning_of(report_.scan_information, length_m).condition;
+  report_.length_m = length_m;
+  report_.conditioning = conditioning_of(report_.scan_information, length_m);
+  report_.open_directions = open_directions(report_.conditioning, config_.max_condition);
   return is_finite(pose.x_m) && is_finite(pose.y_m) && is_finite(pose.theta_rad);
 }
 
@@ -188,7 +190,7 @@ bool IcpMatcherCore::step() {
   if (is_beyond(config_.max_total_m, config_.max_total_rad, request_.start, pose)) {
     return finish(MatchOutcome::step_limit);
   }
-  const bool degenerate = !(report_.condition <= config_.max_condition);
+  const bool degenerate = !(report_.conditioning.condition <= config_.max_condition);
   if (is_below(config_.converged_m, config_.converged_rad, moved)) {
     return finish(degenerate ? MatchOutcome::degenerate : MatchOutcome::converged);
   }

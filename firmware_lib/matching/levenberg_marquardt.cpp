@@ -79,13 +79,13 @@ bool LevenbergMarquardtMatcher<Field>::linearise() {
   scale_ = information_scale(sums, config, field_.reach_m);
   system_ = scaled_system(sums, scale_);
   report_.scan_information = system_.h;
-  conditioning_ = conditioning_of(system_.h, length_m_);
-  report_.condition = conditioning_.condition;
-  degenerate_ = !(conditioning_.condition <= config.max_condition);
-  report_.open_directions = open_directions(conditioning_, config.max_condition);
+  report_.length_m = length_m_;
+  const Conditioning& conditioning = report_.conditioning = conditioning_of(system_.h, length_m_);
+  degenerate_ = !(conditioning.condition <= config.max_condition);
+  report_.open_directions = open_directions(conditioning, config.max_condition);
   if (is_prior(request_.prior)) {
     if (degenerate_) {
-      system_ = observable_part(system_, conditioning_, length_m_, config.max_condition);
+      system_ = observable_part(system_, conditioning, length_m_, config.max_condition);
     }
     add_prior(request_.prior, report_.pose, system_);
   }
@@ -103,8 +103,8 @@ bool LevenbergMarquardtMatcher<Field>::linearise() {
 template <LikelihoodField Field>
 StepSolution LevenbergMarquardtMatcher<Field>::damped_step() const {
   if (degenerate_ && !is_prior(request_.prior)) {
-    Conditioning damped = conditioning_;
-    const float least = conditioning_.eigenvalues[2] / config_.residual.max_condition;
+    Conditioning damped = report_.conditioning;
+    const float least = damped.eigenvalues[2] / config_.residual.max_condition;
     for (float& eigenvalue : damped.eigenvalues) {
       eigenvalue = eigenvalue >= least && eigenvalue > 0.0F ? eigenvalue + damping_ : 0.0F;
     }

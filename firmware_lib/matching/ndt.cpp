@@ -106,8 +106,10 @@ bool NdtMatcher::accept(const Pose2f& pose, const Linearised& at) {
 
 /// The next trial from where the report stands; false when the match is over.
 bool NdtMatcher::plan_step() {
-  Conditioning conditioning = conditioning_of(report_.scan_information, length_m_);
-  report_.condition = conditioning.condition;
+  const Conditioning& conditioning = report_.conditioning =
+      conditioning_of(report_.scan_information, length_m_);
+  report_.length_m = length_m_;
+  report_.open_directions = open_directions(conditioning, config_.max_condition);
   degenerate_ = !(conditioning.condition <= config_.max_condition);
   const bool with_prior = is_prior(request_.prior);
   Matrix3f information = report_.scan_information;

@@ -293,7 +293,6 @@ bool PlIcpMatcherCore::solve_step() {
   const NormalEquations3 system = linearise(trim_limit(), mean_squares, used);
   const float length = 2.0F;  // metres a radian is worth: about the mean range indoors
   const Conditioning conditioning = conditioning_of(system.h, length);
-  report_.condition = conditioning.condition;
   report_.points = used;
   report_.inlier_share = static_cast<float>(used) / static_cast<float>(scan_count_);
   report_.mean_residual_m = square_root(mean_squares);
@@ -302,6 +301,10 @@ bool PlIcpMatcherCore::solve_step() {
   for (std::size_t k = 0; k < 9; ++k) {
     report_.scan_information.elements[k] = weight * system.h.elements[k];
   }
+  report_.length_m = length;
+  report_.conditioning = conditioning;
+  for (float& eigenvalue : report_.conditioning.eigenvalues) { eigenvalue *= weight; }
+  report_.open_directions = open_directions(conditioning, config_.max_condition);
   const bool open = !(conditioning.condition <= config_.max_condition);
   StepSolution solution;
   if (is_prior(request_.prior)) {

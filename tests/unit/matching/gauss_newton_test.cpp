@@ -216,7 +216,7 @@ TEST_P(GaussNewtonRoom, FindsThePoseFromADisturbedStart) {
   EXPECT_LE(std::hypot(error.x_m, error.y_m), 0.015);
   EXPECT_LE(std::abs(error.theta_rad), 0.004);
   EXPECT_GE(report.inlier_share, 0.95F);
-  EXPECT_LE(report.condition, 20.0F);
+  EXPECT_LE(report.conditioning.condition, 20.0F);
 }
 
 INSTANTIATE_TEST_SUITE_P(Starts, GaussNewtonRoom,

@@ -162,7 +162,7 @@ TEST_P(Ndt, FindsThePoseFromADisturbedStartAndRaisesTheScoreAtEachStep) {
   EXPECT_LE(std::abs(error.theta_rad), 0.006);
   EXPECT_GE(report.inlier_share, 0.95F);
   EXPECT_LE(report.mean_residual_m, 0.03F);
-  EXPECT_LE(report.condition, 20.0F);
+  EXPECT_LE(report.conditioning.condition, 20.0F);
   EXPECT_LT(report.covariance(0, 0), 1e-3F);
   EXPECT_TRUE(matcher.step()) << "further steps change nothing";
 }

@@ -143,7 +143,7 @@ TEST(PlIcp, ACorridorIsReportedAsDegenerateAndItsAxisStays) {
   PlIcpMatcher<720> matcher;
   const MatchReport report = matcher.match(reference.view(), {.points = current.view()});
   EXPECT_EQ(report.outcome, MatchOutcome::degenerate);
-  EXPECT_GT(report.condition, 1000.0F);
+  EXPECT_GT(report.conditioning.condition, 1000.0F);
   EXPECT_NEAR(report.pose.y_m, 0.05F, 0.01F);
   EXPECT_NEAR(report.pose.theta_rad, 0.02F, 0.005F);
   EXPECT_NEAR(report.pose.x_m, 0.0F, 0.02F) << "nothing is invented along the corridor";

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "picolo/geometry/pose2.hpp"
+#include "picolo/solve/normal_equations.hpp"
 #include "picolo/undistort/undistorter.hpp"
 
 namespace picolo::inline v0 {
@@ -44,7 +45,7 @@ struct MatchReport {
   Matrix3f scan_information{};  ///< of the scan alone, window axes (1/m^2, 1/(m rad), 1/rad^2)
   Matrix3f covariance{};        ///< inverse of scan and prior information together
   float length_m = 1.0F;        ///< that scales theta: root mean square distance of the points
-  float condition = 0.0F;       ///< of the scan information, theta scaled to metres
+  Conditioning conditioning{};  ///< of the scan information: how well each direction is seen
   /// Directions that the scan leaves open: eigenvalues of the scaled information below their limit.
   /// The prior alone decides along them; without one the start does.
   int open_directions = 0;

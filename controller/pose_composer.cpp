@@ -24,8 +24,14 @@ PoseComposer::PoseComposer(const ControllerConfig& config)
 void PoseComposer::travel(const StampedPose& odometry) {
   const OdometryStep step = step_between(last_odometry_, odometry);
   last_odometry_ = odometry;
-  turned_since_match_rad_ += magnitude(step.motion.theta_rad);
+  turned_since_match_rad_ += wheel_turn(step);
   if (step.motion != Pose2f{}) { since_match_.add(odometry_noise_, step); }
+}
+
+/// At most, whatever one of the wheels counts wrongly.
+float PoseComposer::wheel_turn(const OdometryStep& step) const {
+  const float way_m = hypotenuse(step.motion.x_m, step.motion.y_m);
+  return magnitude(step.motion.theta_rad) + trust_.hidden_turn_per_m * way_m;
 }
 
 OdometryStep PoseComposer::step_between(const StampedPose& from, const StampedPose& to) const {
@@ -53,7 +59,7 @@ void PoseComposer::correct(const MatchVerdict& verdict, const StampedPose& odome
   since_match_.start(verdict.covariance);
   const OdometryStep since = step_between({verdict.reference, verdict.odom_T_base}, odometry);
   since_match_.add(odometry_noise_, since);
-  turned_since_match_rad_ = magnitude(since.motion.theta_rad);
+  turned_since_match_rad_ = wheel_turn(since);
   last_odometry_ = odometry;
   ++matches_;
 }

@@ -92,10 +92,10 @@ HealthMonitor::Finding HealthMonitor::assess(const HealthInputs& inputs) {
   if (inputs.direction_unobservable) {
     return {Level::impaired, HealthReason::direction_unobservable};
   }
-  if (inputs.turn_unverified) { return {Level::impaired, HealthReason::turn_unverified}; }
   if (config_.expects_gyro && inputs.gyro_age > config_.max_gyro_age) {
     return {Level::impaired, HealthReason::gyro_silent};
   }
+  if (inputs.turn_unverified) { return {Level::impaired, HealthReason::turn_unverified}; }
   if (overrun) { return {Level::impaired, HealthReason::overrun}; }
   return {};
 }

@@ -226,7 +226,7 @@ void LocaliserCore::conclude() {
   accepted_ = usable(report_.outcome) && report_.inlier_share >= config_.min_inlier_share;
   reference_ = sweep_.reference;
   agreement_ = 0.0F;
-  if (accepted_ && !(doubted_ && unverified_)) {
+  if (accepted_ && (!(doubted_ && unverified_) || proves_by_way())) {
     const bool poor = report_.inlier_share < config_.search.below_inlier_share;
     agreement_ = doubted_ || poor ? agreement_of(report_) : report_.inlier_share;
   }
@@ -239,6 +239,7 @@ void LocaliserCore::conclude() {
   }
   ++counters_.matched;
   map_T_base_ = to_map(fine_.window(), report_.pose);
+  if (doubted_ && proves_by_way()) { prove_by_way(); }
   last_correction_ = to_f32(between(prediction_, map_T_base_));
   map_T_odom_ = map_T_base_ * inverse(sweep_.odom_T_base);
   if (config_.learn_heading && with_odometry_ && !guessed_ && !settled_) {
@@ -278,6 +279,10 @@ void LocaliserCore::start_map_update() {
   next_point_ = 0;
   adding_hits_ = true;
   ++counters_.inserted;
+  const Pose2f from = to_f32(map_T_base_);
+  if (counters_.inserted == 1) { mapped_from_ = mapped_to_ = {from.x_m, from.y_m}; }
+  mapped_from_ = {std::min(mapped_from_.x_m, from.x_m), std::min(mapped_from_.y_m, from.y_m)};
+  mapped_to_ = {std::max(mapped_to_.x_m, from.x_m), std::max(mapped_to_.y_m, from.y_m)};
 }
 
 void LocaliserCore::add_points(std::size_t max_points, bool hits) {

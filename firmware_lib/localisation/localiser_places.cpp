@@ -3,13 +3,17 @@
 
 // A doubted sweep that fits nowhere near the pose is searched for in the whole map.
 
+#include <algorithm>
+
+#include "picolo/core/math.hpp"
 #include "picolo/localisation/localiser.hpp"
 
 namespace picolo::inline v0 {
 
 bool LocaliserCore::begin_relocalisation() {
   const RelocaliseConfig& config = config_.relocalise;
-  const bool due = unverified_ || (unfit_in_a_row_ >= config.after_sweeps && !fits());
+  const bool at_once = unverified_ && !proves_by_way();
+  const bool due = at_once || (unfit_in_a_row_ >= config.after_sweeps && !fits());
   if (relocalisation_ != Relocalisation::none || !config.enabled || !doubted_ || !due ||
       !worth_a_search() || !relocaliser_.begin(sweep_.points)) {
     return false;
@@ -96,9 +100,33 @@ bool LocaliserCore::stays() const {
   return true;
 }
 
+bool LocaliserCore::searches_slowly() const {
+  const float longer_m =
+      std::max(mapped_to_.x_m - mapped_from_.x_m, mapped_to_.y_m - mapped_from_.y_m);
+  return !localises_only_ && longer_m > config_.relocalise.longest_search_m;
+}
+
+bool LocaliserCore::proves_by_way() const {
+  return unverified_ && !given_ && searches_slowly();
+}
+
+/// Of an accepted match; what agrees too little has ended the proof, see note_fit.
+void LocaliserCore::prove_by_way() {
+  const RelocaliseConfig& config = config_.relocalise;
+  if (agreement_ < config.min_agreement) { return; }
+  const Pose2f since = to_f32(between(accepted_map_T_base_, map_T_base_));
+  proof_way_m_ += hypotenuse(since.x_m, since.y_m);
+  if (proof_way_m_ < config.proof_way_m) { return; }
+  unverified_ = false;
+  given_ = true;
+}
+
 /// Of the match that is over.
 void LocaliserCore::note_fit() {
-  if (!doubted_ || agreement_ >= config_.relocalise.min_agreement) {
+  const RelocaliseConfig& config = config_.relocalise;
+  if (!unverified_ || agreement_ < config.min_agreement) { proof_way_m_ = 0.0F; }
+  if (!doubted_ ||
+      agreement_ >= (searches_slowly() ? config.lost_agreement : config.min_agreement)) {
     unfit_in_a_row_ = 0;
     return;
   }

@@ -20,7 +20,6 @@ namespace {
 using Robot = LockstepController<RoomProfile>;
 
 constexpr ControllerConfig kInstalled = board_config(kSoftwareDoubles);
-constexpr ControllerConfig kOnALog = on_a_log(kInstalled);
 
 class Ticks final : public CycleCounter {
  public:
@@ -105,7 +104,8 @@ int run() {
   Ticks counter;
   char drive[8];
   platform::argument(2, drive);
-  const ControllerConfig& config = is(drive, "log") ? kOnALog : kInstalled;
+  ControllerConfig config = kInstalled;
+  if (is(drive, "log")) { config = on_a_log(config); }
   ControllerServices services;
 #ifdef PICOLO_CALIBRATES
   auto& calibration =

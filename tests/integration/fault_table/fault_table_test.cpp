@@ -10,6 +10,7 @@
 #include <array>
 #include <cstdlib>
 #include <memory>
+#include <string>
 #include <utility>
 
 #include "matrix.hpp"
@@ -64,10 +65,17 @@ host::CarmenLog read_log(const std::string& name) {
   return host::read_carmen(reader, quiet);
 }
 
+host::Trajectory read_trajectory(const std::string& name) {
+  host::LineReader reader{data_path(name)};
+  host::Diagnostics quiet{[](std::string_view) {}};
+  return host::read_tum(reader, quiet).poses;
+}
+
 struct RecordedDrive {
   const char* name;
   Duration scan_period;
   Duration lidar_age;
+  const char* gyro = nullptr;  ///< whose headings it tells; none otherwise
 };
 
 class RecordedFaultTable : public ::testing::TestWithParam<RecordedDrive> {};
@@ -78,18 +86,26 @@ TEST_P(RecordedFaultTable, Table) {
   Campaign campaign{.sensors = {Sensor::left_wheel, Sensor::right_wheel, Sensor::lidar},
                     .lidar_period = drive.scan_period};
   const host::CarmenLog log = read_log(drive.name);
-  const LogTrack track{log};
+  LogTrack track{log};
+  if (drive.gyro != nullptr) {
+    PICOLO_NEED_DATA(drive.gyro);
+    track.take_gyro_from(read_trajectory(drive.gyro));
+    campaign.sensors.push_back(Sensor::gyro);
+  }
   const auto subject = std::make_unique<RecordedSubject>(track, drive.scan_period, drive.lidar_age);
   campaign.drive(*subject, first_seed(), instants(), Timestamp{4s}, track.end() - 9s);
-  campaign.print(drive.name);
+  const std::string name = drive.name;
+  campaign.print(drive.gyro == nullptr ? name : name + " and a gyro");
   EXPECT_EQ(campaign.count(Verdict::silent), 0);
   EXPECT_LE(50 * campaign.count(Verdict::late), static_cast<int>(campaign.outcomes.size()));
 }
 
-INSTANTIATE_TEST_SUITE_P(
-    Logs, RecordedFaultTable,
-    ::testing::Values(RecordedDrive{"imu/undistort_sweeps_a.txt.gz", 90ms, 0ms},
-                      RecordedDrive{"radish/freiburg-079.clf.gz", 235ms, 0ms}));
+INSTANTIATE_TEST_SUITE_P(Logs, RecordedFaultTable,
+                         ::testing::Values(RecordedDrive{"imu/undistort_sweeps_a.txt.gz", 90ms,
+                                                         0ms},
+                                           RecordedDrive{"radish/freiburg-079.clf.gz", 235ms, 0ms},
+                                           RecordedDrive{"radish/freiburg-079.clf.gz", 235ms, 0ms,
+                                                         "radish/freiburg-079_ref.tum.gz"}));
 
 }  // namespace
 }  // namespace picolo::test

@@ -135,6 +135,19 @@ TEST_F(PoseComposerTest, GivenWheelsThatTurnAloneThenTurnsMayBeWrongerAndAreNotB
   EXPECT_FALSE(made.turn_unverified(true));
 }
 
+TEST_F(PoseComposerTest, GivenAStraightWayByWheelsAloneThenItMayHideATurn) {
+  PoseComposer made = composer();
+  made.correct({.accepted = true, .turned_by_gyro = false}, {kStart, {}});
+  (void)made.compose(kStart + 100ms, {kStart + 100ms, {0.09, 0.0, 0.0}}, {});
+  EXPECT_FALSE(made.turn_unverified(false));
+  (void)made.compose(kStart + 110ms, {kStart + 110ms, {0.11, 0.0, 0.0}}, {});
+  EXPECT_TRUE(made.turn_unverified(false)) << "0.4 rad a metre, beyond 0.04 rad";
+  made.correct({.accepted = true, .turned_by_gyro = false}, {kStart + 110ms, {0.11, 0.0, 0.0}});
+  EXPECT_TRUE(made.turn_unverified(false)) << "a match for the place where it was at the start";
+  (void)made.compose(kStart + 110ms, {kStart + 110ms, {0.11, 0.0, 0.0}}, {});
+  EXPECT_FALSE(made.turn_unverified(true));
+}
+
 TEST_F(PoseComposerTest, GivenCorrectionsThatPointHereAndThereThenNoPull) {
   PoseComposer made = composer();
   for (int i = 0; i < 100; ++i) {

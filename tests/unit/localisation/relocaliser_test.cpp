@@ -138,6 +138,51 @@ TEST(Relocaliser, GivenSlicesThenEachIsShortAndTheMapIsWholeAfterwards) {
   EXPECT_GT(core.report().inlier_share, 0.9F);
 }
 
+Pose2d after(int steps) {
+  const double angle = 0.05 * steps;
+  return {1.5 * std::cos(angle), 1.2 * std::sin(angle), wrap_angle(angle)};
+}
+
+TEST(Relocaliser, GivenALargeMapThenAWayThatAgreesProvesThePoseWithoutASearch) {
+  LocaliserConfig config;
+  config.relocalise.longest_search_m = 2.0F;
+  const auto localiser = lost_in(furnished_room(), config);
+  LocaliserCore& core = localiser->core();
+  core.verify(false);
+  double way_m = 0.0;
+  for (int k = 1; core.unverified() && k < 100; ++k) {
+    const Pose2d pose = after(k);
+    ASSERT_EQ(core.process(sweep_of(scan_at(furnished_room(), pose), pose), true), Status::ok);
+    ASSERT_TRUE(core.accepted());
+    way_m += k > 1 ? distance(after(k - 1), pose) : 0.0;
+  }
+  EXPECT_FALSE(core.unverified());
+  EXPECT_GT(way_m, LocaliserConfig{}.relocalise.proof_way_m - 0.5F);
+  EXPECT_LT(way_m, LocaliserConfig{}.relocalise.proof_way_m + 0.5F);
+  EXPECT_EQ(core.counters().searched_anywhere, 0U);
+}
+
+TEST(Relocaliser, GivenALargeMapThenWhatFitsBadlyIsSearchedForAndWhatFitsHalfwayIsNot) {
+  const std::vector<Wall> elsewhere{
+      {-1, -9, 2, -8}, {2, -8, 6, 4}, {6, 4, -1, 7}, {-1, 7, -6, 1}, {-6, 1, -1, -9}};
+  std::vector<Wall> changed = furnished_room();
+  changed.push_back({-0.6, -1.0, 0.6, -1.0});  // somebody stands there
+  for (const auto& [walls, searches] : {std::pair{elsewhere, 1}, std::pair{changed, 0}}) {
+    LocaliserConfig config;
+    config.relocalise.longest_search_m = 2.0F;
+    const auto localiser = lost_in(furnished_room(), config);
+    LocaliserCore& core = localiser->core();
+    core.verify(false);
+    for (int k = 0; k < 4; ++k) {
+      ASSERT_EQ(core.process(sweep_of(scan_at(walls, {}), {}), true), Status::ok);
+    }
+    EXPECT_LT(core.agreement(), 0.85F);
+    EXPECT_TRUE(core.unverified());
+    EXPECT_GE(core.counters().searched_anywhere, static_cast<std::uint32_t>(searches));
+    if (searches == 0) { EXPECT_EQ(core.counters().searched_anywhere, 0U); }
+  }
+}
+
 TEST(Relocaliser, GivenFewPointsOrNoDoubtThenTheWholeMapIsNotSearched) {
   const auto localiser = lost_in(furnished_room());
   LocaliserCore& core = localiser->core();

@@ -55,6 +55,7 @@ class PoseComposer {
 
  private:
   [[nodiscard]] float turn_factor() const;
+  [[nodiscard]] float wheel_turn(const OdometryStep& step) const;
   void travel(const StampedPose& odometry);
   [[nodiscard]] OdometryStep step_between(const StampedPose& from, const StampedPose& to) const;
 

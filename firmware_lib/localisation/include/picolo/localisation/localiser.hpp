@@ -204,11 +204,13 @@ class LocaliserCore {
   /// the whole map (see RelocaliseConfig), or widely where that is switched off.
   void doubt(bool doubted) { doubted_ = doubted; }
   /// The pose may be anywhere, or nowhere near: while doubted, the next sweeps are searched for in
-  /// the whole map even where they fit, until one fits at one place only. `given`: somebody who
-  /// knows has set the pose; where it fits as well as any other, it is that.
+  /// the whole map even where they fit, until one fits at one place only; or, in a large map (see
+  /// RelocaliseConfig), the vehicle drives on and all of them fit. `given`: somebody who knows has
+  /// set the pose; where it fits as well as any other, it is that.
   void verify(bool given) {
     unverified_ = config_.relocalise.enabled;
     given_ = given;
+    proof_way_m_ = 0.0F;
   }
   [[nodiscard]] bool unverified() const { return unverified_; }
   /// Of the points that the map has an opinion on, the share that is near an obstacle; 0 as long as
@@ -260,6 +262,9 @@ class LocaliserCore {
   [[nodiscard]] bool choose_place();
   [[nodiscard]] bool stays() const;
   void note_fit();
+  [[nodiscard]] bool searches_slowly() const;
+  [[nodiscard]] bool proves_by_way() const;
+  void prove_by_way();
   [[nodiscard]] Matrix3f motion_covariance(const Pose2d& motion) const;
   [[nodiscard]] PosePrior prior_about(const Pose2f& pose) const;
   /// From where cell_error_ was found.
@@ -319,6 +324,9 @@ class LocaliserCore {
   bool guessed_ = false;
   bool unverified_ = false;
   bool given_ = false;
+  float proof_way_m_ = 0.0F;
+  Point2f mapped_from_{};  // corners of the square from which the map was made
+  Point2f mapped_to_{};
   int unfit_in_a_row_ = 0;  // doubted sweeps
   float agreement_ = 0.0F;
   bool localises_only_ = false;

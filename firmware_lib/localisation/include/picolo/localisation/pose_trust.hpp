@@ -44,8 +44,10 @@ struct MatchTrust {
   /// they slip.
   float without_gyro = 2.5F;
   /// ... and no turn further than this is believed before a match confirms it: a wheel that counts
-  /// wrongly makes a turn of a straight way.
+  /// wrongly makes a turn of a straight way, ...
   float max_wheel_turn_rad = 0.04F;
+  /// ... or hides one, this much a metre: what one wheel may count wrongly over the track.
+  float hidden_turn_per_m = 0.4F;
   /// Without a match for longer, what is seen afterwards has to prove the pose as after a loss.
   Duration max_unmatched = 1s;
   [[nodiscard]] constexpr bool valid() const {
@@ -54,8 +56,8 @@ struct MatchTrust {
            found_again_agreement <= 1.0F && min_agreement >= 0.0F && min_agreement <= 1.0F &&
            max_leap_m > 0.0F && max_leap_rad > 0.0F && found_again_matches > 0 && max_doubt >= 0 &&
            proof_matches >= 0 && pull_proof_matches >= proof_matches && without_gyro >= 1.0F &&
-           max_wheel_turn_rad > 0.0F && max_unmatched > Duration{0} && max_pull_m > 0.0F &&
-           max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
+           max_wheel_turn_rad > 0.0F && hidden_turn_per_m >= 0.0F && max_unmatched > Duration{0} &&
+           max_pull_m > 0.0F && max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
   }
 };
 

@@ -27,12 +27,20 @@ struct RelocaliseConfig {
   /// other is contradicted by twice as many and by this share of the points.
   float min_agreement = 0.85F;
   float rival_margin = 0.03F;
+  /// To search a map that the vehicle has made on a drive longer than this, from end to end, takes
+  /// longer than it may go on blindly. There sweeps are searched for only when they agree less than
+  /// this with what is near, and a pose that nobody has set is proven by a way over which all of
+  /// them agree by `min_agreement`.
+  float longest_search_m = 15.0F;
+  float lost_agreement = 0.5F;
+  float proof_way_m = 3.0F;
   std::uint32_t nodes_per_step = 32;  ///< as long as `SearchConfig::lookups_per_step`
   PoseSearchConfig poses{.rotation_step_rad = 0.034906585F,  // 2 deg
                          .min_score = 0.45F,
                          .max_nodes = 8'000'000};
   [[nodiscard]] constexpr bool valid() const {
     return after_sweeps >= 0 && rival_score > 0.0F && rival_score <= 1.0F && apart_m > 0.0F &&
+           longest_search_m > 0.0F && lost_agreement >= 0.0F && proof_way_m > 0.0F &&
            apart_rad > 0.0F && min_agreement >= 0.0F && min_agreement <= 1.0F &&
            rival_margin >= 0.0F && nodes_per_step > 0 && poses.valid();
   }

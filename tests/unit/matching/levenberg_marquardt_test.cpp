@@ -189,6 +189,7 @@ TEST_F(LevenbergMarquardt, GivenACorridorThenTheOpenDirectionIsLeftAlone) {
   const MatchReport report = matcher.match(
       map.core().field(), {scan.view(), to_window(map.core().window(), {0.3, 0.1, 0.03}), {}});
   EXPECT_EQ(report.outcome, MatchOutcome::degenerate);
+  EXPECT_EQ(report.open_directions, 1);
   const Pose2d found = to_map(map.core().window(), report.pose);
   EXPECT_NEAR(found.x_m, 0.3, 0.03);
   EXPECT_NEAR(found.y_m, 0.0, 0.02);

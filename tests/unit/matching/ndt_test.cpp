@@ -186,6 +186,7 @@ TEST(NdtMatcher, GivenACorridorThenTheOpenDirectionIsLeftAlone) {
   NdtMatcher matcher;
   MatchReport report = matcher.match(map->core().view(), {scan.view(), start, {}});
   EXPECT_EQ(report.outcome, MatchOutcome::degenerate);
+  EXPECT_EQ(report.open_directions, 1);
   EXPECT_NEAR(to_map(map->core().window(), report.pose).x_m, 0.3, 0.05);
   EXPECT_NEAR(to_map(map->core().window(), report.pose).y_m, 0.0, 0.02);
   EXPECT_NEAR(report.pose.theta_rad, 0.0F, 0.01F);

@@ -144,6 +144,8 @@ TEST(PlIcp, ACorridorIsReportedAsDegenerateAndItsAxisStays) {
   const MatchReport report = matcher.match(reference.view(), {.points = current.view()});
   EXPECT_EQ(report.outcome, MatchOutcome::degenerate);
   EXPECT_GT(report.conditioning.condition, 1000.0F);
+  EXPECT_EQ(report.open_directions, 1);
+  EXPECT_GT(std::abs(report.conditioning.eigenvectors(0, 0)), 0.99F) << "along the corridor";
   EXPECT_NEAR(report.pose.y_m, 0.05F, 0.01F);
   EXPECT_NEAR(report.pose.theta_rad, 0.02F, 0.005F);
   EXPECT_NEAR(report.pose.x_m, 0.0F, 0.02F) << "nothing is invented along the corridor";

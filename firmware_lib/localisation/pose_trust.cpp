@@ -37,8 +37,9 @@ void PoseTrust::matched(const JudgedMatch& match) {
     count_up(accepted_streak_);
   }
   if (accepted_streak_ >= config_.found_again_matches) { unproven_ = false; }
-  if (match.jumped) {
-    doubt_ += poor ? 2 * kDoubtful : kDoubtful;
+  const bool doubtful = poor && match.agreement < config_.poor_agreement;
+  if (match.jumped || doubtful) {
+    doubt_ += match.jumped && poor ? 2 * kDoubtful : kDoubtful;
   } else if (!poor) {  // a poor match in new surroundings says nothing
     doubt_ -= 1;
   }

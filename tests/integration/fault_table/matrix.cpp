@@ -189,7 +189,8 @@ Outcome judge(const Fault& fault, const Twin& twin, const std::vector<Publicatio
     const Pose2d truth = p.knows_truth ? p.truth : pose_at(twin, p.stamp);
     const Difference error = difference(p.map_T_base, truth);
     const bool wrong = error.beyond(kWrong_m, kWrong_rad);
-    inside = inside && !wrong;
+    // Once the drive without the fault says degraded nothing is claimed of this one either.
+    inside = inside && (!wrong || twin[k].state != HealthState::tracking);
     wrong_in_a_row = wrong && tracking ? wrong_in_a_row + 1 : 0;
     silent = silent || wrong_in_a_row >= kInARow;
     outcome.nominal_nees = std::max(outcome.nominal_nees, twin[k].nees);

@@ -206,6 +206,17 @@ TEST_F(SupervisorTest, GivenPoorMatchesWithoutJumpsThenTrackingGoesOn) {
   EXPECT_EQ(supervisor.state(), HealthState::tracking) << "new surroundings fit nothing yet";
 }
 
+TEST_F(SupervisorTest, GivenPoorMatchesThatTheMapContradictsThenTheSecondIsTold) {
+  const MatchVerdict doubtful{.accepted = true, .agreement = 0.85F, .inlier_share = 0.4F};
+  track();
+  supervisor.matched(doubtful);
+  tick();
+  EXPECT_EQ(supervisor.state(), HealthState::tracking) << "somebody passes by";
+  supervisor.matched(doubtful);
+  tick();
+  EXPECT_EQ(supervisor.reason(), HealthReason::sensors_disagree);
+}
+
 TEST_F(SupervisorTest, GivenALostPoseThenPoorMatchesDoNotBringItBack) {
   track();
   for (int i = 0; i < 15; ++i) { supervisor.matched({.accepted = false}); }

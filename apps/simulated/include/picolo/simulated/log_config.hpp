@@ -12,6 +12,7 @@ namespace picolo::inline v0 {
 /// `in_given_map`: what contradicts it tells that the pose is wrong, there is nothing new to see.
 [[nodiscard]] constexpr MatchTrust trust_of_log(bool in_given_map) {
   MatchTrust trust{.good_inlier_share = 0.0F,
+                   .poor_agreement = 0.0F,
                    .min_agreement = 0.0F,
                    .max_correction_m = 100.0F,
                    .max_correction_rad = 4.0F,

@@ -16,6 +16,8 @@ namespace picolo::inline v0 {
 /// lowers it by one.
 struct MatchTrust {
   float good_inlier_share = 0.5F;  ///< a match with fewer points near obstacles is poor
+  /// ... and doubtful when it agrees less: it is no new surroundings that it sees.
+  float poor_agreement = 0.9F;
   /// After the pose was lost a match with fewer is poor: a place that looks like another one
   /// differs from it somewhere.
   float found_again_agreement = 0.85F;
@@ -51,11 +53,12 @@ struct MatchTrust {
   /// Without a match for longer, what is seen afterwards has to prove the pose as after a loss.
   Duration max_unmatched = 1s;
   [[nodiscard]] constexpr bool valid() const {
-    return good_inlier_share >= 0.0F && good_inlier_share <= 1.0F && max_correction_m >= 0.0F &&
-           max_correction_rad >= 0.0F && found_again_agreement >= 0.0F &&
-           found_again_agreement <= 1.0F && min_agreement >= 0.0F && min_agreement <= 1.0F &&
-           max_leap_m > 0.0F && max_leap_rad > 0.0F && found_again_matches > 0 && max_doubt >= 0 &&
-           proof_matches >= 0 && pull_proof_matches >= proof_matches && without_gyro >= 1.0F &&
+    return good_inlier_share >= 0.0F && poor_agreement >= 0.0F && poor_agreement <= 1.0F &&
+           good_inlier_share <= 1.0F && max_correction_m >= 0.0F && max_correction_rad >= 0.0F &&
+           found_again_agreement >= 0.0F && found_again_agreement <= 1.0F &&
+           min_agreement >= 0.0F && min_agreement <= 1.0F && max_leap_m > 0.0F &&
+           max_leap_rad > 0.0F && found_again_matches > 0 && max_doubt >= 0 && proof_matches >= 0 &&
+           pull_proof_matches >= proof_matches && without_gyro >= 1.0F &&
            max_wheel_turn_rad > 0.0F && hidden_turn_per_m >= 0.0F && max_unmatched > Duration{0} &&
            max_pull_m > 0.0F && max_pull_rad > 0.0F && pull_kept >= 0.0F && pull_kept < 1.0F;
   }

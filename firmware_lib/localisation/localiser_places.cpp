@@ -124,7 +124,7 @@ void LocaliserCore::prove_by_way() {
 /// Of the match that is over.
 void LocaliserCore::note_fit() {
   const RelocaliseConfig& config = config_.relocalise;
-  if (!unverified_ || agreement_ < config.min_agreement) { proof_way_m_ = 0.0F; }
+  if (agreement_ < config.min_agreement) { proof_way_m_ = 0.0F; }
   if (!doubted_ ||
       agreement_ >= (searches_slowly() ? config.lost_agreement : config.min_agreement)) {
     unfit_in_a_row_ = 0;

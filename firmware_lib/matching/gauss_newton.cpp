@@ -52,7 +52,7 @@ bool GaussNewtonMatcher<Field>::enough_points(int inside) {
 template <LikelihoodField Field>
 void GaussNewtonMatcher<Field>::damp(std::array<float, 3>& step) {
   const float along = (step[0] * last_step_[0] + step[1] * last_step_[1]) +
-                      length_m_ * length_m_ * step[2] * last_step_[2];
+                      report_.length_m * report_.length_m * step[2] * last_step_[2];
   if (along < 0.0F) { damping_ *= 0.5F; }
   for (float& component : step) { component *= damping_; }
   last_step_ = step;
@@ -69,19 +69,19 @@ bool GaussNewtonMatcher<Field>::step() {
   report_.residual_variance_m2 =
       field_.reach_m * field_.reach_m * sums.robust_squares / sums.inside;
   report_.inlier_share = sums.inliers / static_cast<float>(request_.points.size());
-  length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
+  report_.length_m = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
 
-  report_.length_m = length_m_;
   report_.cost = cost_of(sums, config_, field_.reach_m, request_, report_.pose);
   NormalEquations3 system = scaled_system(sums, information_scale(sums, config_, field_.reach_m));
   report_.scan_information = system.h;
-  const Conditioning& conditioning = report_.conditioning = conditioning_of(system.h, length_m_);
+  const Conditioning& conditioning = report_.conditioning =
+      conditioning_of(system.h, report_.length_m);
   const bool degenerate = !(conditioning.condition <= config_.max_condition);
   const bool with_prior = is_prior(request_.prior);
   report_.open_directions = open_directions(conditioning, config_.max_condition);
   if (with_prior) {
     if (degenerate) {
-      system = observable_part(system, conditioning, length_m_, config_.max_condition);
+      system = observable_part(system, conditioning, report_.length_m, config_.max_condition);
     }
     add_prior(request_.prior, report_.pose, system);
   }
@@ -89,7 +89,7 @@ bool GaussNewtonMatcher<Field>::step() {
 
   StepSolution solution =
       degenerate && !with_prior
-          ? solve_constrained(system, conditioning, length_m_, config_.max_condition)
+          ? solve_constrained(system, conditioning, report_.length_m, config_.max_condition)
           : solve(system);
   if (!solution.solved) { return finish(MatchOutcome::unsolvable); }
   shorten(config_.max_step_m, config_.max_step_rad, solution.step);

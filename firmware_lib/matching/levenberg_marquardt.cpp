@@ -75,24 +75,24 @@ bool LevenbergMarquardtMatcher<Field>::linearise() {
   report_.residual_variance_m2 =
       field_.reach_m * field_.reach_m * sums.robust_squares / sums.inside;
   report_.inlier_share = sums.inliers / all;
-  length_m_ = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
+  report_.length_m = std::max(0.1F, square_root(sums.squared_radius / sums.inside));
   scale_ = information_scale(sums, config, field_.reach_m);
   system_ = scaled_system(sums, scale_);
   report_.scan_information = system_.h;
-  report_.length_m = length_m_;
-  const Conditioning& conditioning = report_.conditioning = conditioning_of(system_.h, length_m_);
+  const Conditioning& conditioning = report_.conditioning =
+      conditioning_of(system_.h, report_.length_m);
   degenerate_ = !(conditioning.condition <= config.max_condition);
   report_.open_directions = open_directions(conditioning, config.max_condition);
   if (is_prior(request_.prior)) {
     if (degenerate_) {
-      system_ = observable_part(system_, conditioning, length_m_, config.max_condition);
+      system_ = observable_part(system_, conditioning, report_.length_m, config.max_condition);
     }
     add_prior(request_.prior, report_.pose, system_);
   }
   report_.covariance = covariance_of(system_.h, kUnknownVariance);
   cost_ = cost_at(report_.pose);
   if (!(damping_ > 0.0F)) {
-    const float turn = system_.h(2, 2) / (length_m_ * length_m_);
+    const float turn = system_.h(2, 2) / (report_.length_m * report_.length_m);
     damping_ = config_.initial_damping * std::max(std::max(system_.h(0, 0), system_.h(1, 1)), turn);
   }
   linearised_ = true;
@@ -108,12 +108,12 @@ StepSolution LevenbergMarquardtMatcher<Field>::damped_step() const {
     for (float& eigenvalue : damped.eigenvalues) {
       eigenvalue = eigenvalue >= least && eigenvalue > 0.0F ? eigenvalue + damping_ : 0.0F;
     }
-    return solve_constrained(system_, damped, length_m_, config_.residual.max_condition);
+    return solve_constrained(system_, damped, report_.length_m, config_.residual.max_condition);
   }
   NormalEquations3 damped = system_;
   damped.h(0, 0) += damping_;
   damped.h(1, 1) += damping_;
-  damped.h(2, 2) += damping_ * (length_m_ * length_m_);
+  damped.h(2, 2) += damping_ * (report_.length_m * report_.length_m);
   return solve(damped);
 }
 

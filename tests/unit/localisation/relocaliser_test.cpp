@@ -167,7 +167,7 @@ TEST(Relocaliser, GivenALargeMapThenWhatFitsBadlyIsSearchedForAndWhatFitsHalfway
       {-1, -9, 2, -8}, {2, -8, 6, 4}, {6, 4, -1, 7}, {-1, 7, -6, 1}, {-6, 1, -1, -9}};
   std::vector<Wall> changed = furnished_room();
   changed.push_back({-0.6, -1.0, 0.6, -1.0});  // somebody stands there
-  for (const auto& [walls, searches] : {std::pair{elsewhere, 1}, std::pair{changed, 0}}) {
+  for (const auto& [walls, searched] : {std::pair{elsewhere, true}, std::pair{changed, false}}) {
     LocaliserConfig config;
     config.relocalise.longest_search_m = 2.0F;
     const auto localiser = lost_in(furnished_room(), config);
@@ -178,8 +178,7 @@ TEST(Relocaliser, GivenALargeMapThenWhatFitsBadlyIsSearchedForAndWhatFitsHalfway
     }
     EXPECT_LT(core.agreement(), 0.85F);
     EXPECT_TRUE(core.unverified());
-    EXPECT_GE(core.counters().searched_anywhere, static_cast<std::uint32_t>(searches));
-    if (searches == 0) { EXPECT_EQ(core.counters().searched_anywhere, 0U); }
+    EXPECT_EQ(core.counters().searched_anywhere > 0U, searched);
   }
 }
 

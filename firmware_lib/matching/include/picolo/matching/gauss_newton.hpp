@@ -76,7 +76,6 @@ class GaussNewtonMatcher {
   MatchReport report_{};
   std::array<float, 3> last_step_{};
   float damping_ = 1.0F;
-  float length_m_ = 1.0F;
   bool done_ = true;
 };
 

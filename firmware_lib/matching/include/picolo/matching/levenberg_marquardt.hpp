@@ -54,7 +54,6 @@ class LevenbergMarquardtMatcher {
   MatchRequest request_{};
   MatchReport report_{};
   NormalEquations3 system_{};  // of scan and prior at the report's pose
-  float length_m_ = 1.0F;
   float scale_ = 1.0F;  // from unit-free residuals to an information
   float cost_ = 0.0F;
   float damping_ = 0.0F;

@@ -9,6 +9,12 @@ set(PICOLO_SANITIZE "" CACHE STRING "Sanitizers to build with, e.g. address,unde
 if(PICOLO_SANITIZE)
   add_compile_options(-fsanitize=${PICOLO_SANITIZE} -fno-sanitize-recover=all)
   add_link_options(-fsanitize=${PICOLO_SANITIZE})
+  # gcc sees uninitialised members in libstdc++'s own regular expressions when they are instrumented.
+  add_compile_options($<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>)
+  # The library has no RTTI, which the check of virtual calls wants of its classes.
+  if(PICOLO_SANITIZE MATCHES undefined)
+    add_compile_options($<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize=vptr>)
+  endif()
 endif()
 
 add_library(picolo_numbers INTERFACE)

@@ -77,7 +77,8 @@ TEST(PdoMapping, PropertyExtractAgreesWithReadingBitByBit) {
     std::uint64_t expected = 0;
     for (unsigned i = 0; i < bits; ++i) {
       const unsigned at = first + i;
-      expected |= static_cast<std::uint64_t>((data[at / 8] >> (at % 8)) & 1U) << i;
+      const std::uint64_t byte = data[at / 8];
+      expected |= ((byte >> (at % 8)) & 1U) << i;
     }
     const PdoField field{first, bits};
     RC_ASSERT(extract(data, field) == expected);

@@ -128,7 +128,9 @@ class LatePort final : public SerialPort {
   }
   [[nodiscard]] std::uint32_t baud() const override { return inner_.baud(); }
   [[nodiscard]] std::uint32_t lost() const override { return inner_.lost(); }
-  [[nodiscard]] Duration jitter() const { return longest_ - shortest_; }
+  [[nodiscard]] Duration jitter() const {
+    return shortest_ <= longest_ ? longest_ - shortest_ : Duration{0};
+  }
 
  private:
   SerialPort& inner_;

@@ -167,6 +167,7 @@ void LocaliserCore::start_match() {
   request_ = {};
   request_.points = sweep_.points;
   request_.prior = prior_about(to_window(fine_.window(), prediction_));
+  if (new_corners_mislead()) { release_new_corners(); }
   refine(request_.prior.pose);
 }
 

@@ -5,10 +5,8 @@
 
 #include <algorithm>
 #include <array>
-#include <span>
 
 #include "picolo/core/arithmetic.hpp"
-#include "picolo/core/convert.hpp"
 #include "picolo/core/math.hpp"
 #include "picolo/localisation/localiser.hpp"
 
@@ -137,30 +135,6 @@ void LocaliserCore::update_uncertainty(const Matrix3f& cell_gradients) {
   const float receded = square(unit * config.receding_m) * way_m;
   drift_.correct(Matrix3f::identity(),
                  sum(sum(scaled(scan, added), cells), propagate(fused, scaled(receding, receded))));
-}
-
-/// Points in cells that nobody has seen yet tell neither for nor against the pose; those in cells
-/// seen free do, against it.
-float LocaliserCore::agreement_of(const MatchReport& report) const {
-  const SinCos<float> yaw = sin_cos(report.pose.theta_rad);
-  const DistanceFieldView field = fine_.field();
-  const std::span<const std::int8_t> occupancy = fine_.occupancy();
-  const float near = config_.fine.inlier_m / field.reach_m;
-  int against = 0;
-  for (std::size_t k = 0; k < sweep_.points.size(); ++k) {
-    const float x_m = sweep_.points.x_m[k];
-    const float y_m = sweep_.points.y_m[k];
-    const Point2f p{report.pose.x_m + (yaw.cosine * x_m - yaw.sine * y_m),
-                    report.pose.y_m + (yaw.sine * x_m + yaw.cosine * y_m)};
-    const FieldSample at = sample_field(field, p.x_m, p.y_m);
-    if (!(at.inside > 0.0F) || 1.0F - at.value <= near) { continue; }
-    const std::int32_t column = floor_to_i32(p.x_m * field.cells_per_m, 0, field.width - 1);
-    const std::int32_t row = floor_to_i32(p.y_m * field.cells_per_m, 0, field.height - 1);
-    against += occupancy[static_cast<std::size_t>(row * field.width + column)] < 0 ? 1 : 0;
-  }
-  const float in_favour = report.inlier_share * static_cast<float>(sweep_.points.size());
-  const float known = in_favour + static_cast<float>(against);
-  return known > 0.0F ? in_favour / known : 0.0F;
 }
 
 }  // namespace picolo::inline v0

@@ -74,8 +74,8 @@ host::Trajectory read_trajectory(const std::string& name) {
 struct RecordedDrive {
   const char* name;
   Duration scan_period;
-  Duration lidar_age;
-  const char* gyro = nullptr;  ///< whose headings it tells; none otherwise
+  const char* reference = nullptr;  ///< whose headings the gyro tells; no gyro otherwise
+  bool good_wheels = false;         ///< that went the reference's way, not the odometry's
 };
 
 class RecordedFaultTable : public ::testing::TestWithParam<RecordedDrive> {};
@@ -87,25 +87,31 @@ TEST_P(RecordedFaultTable, Table) {
                     .lidar_period = drive.scan_period};
   const host::CarmenLog log = read_log(drive.name);
   LogTrack track{log};
-  if (drive.gyro != nullptr) {
-    PICOLO_NEED_DATA(drive.gyro);
-    track.take_gyro_from(read_trajectory(drive.gyro));
+  std::string title = drive.name;
+  if (drive.reference != nullptr) {
+    PICOLO_NEED_DATA(drive.reference);
+    const host::Trajectory reference = read_trajectory(drive.reference);
+    track.take_gyro_from(reference);
+    if (drive.good_wheels) { track.take_wheels_from(reference); }
     campaign.sensors.push_back(Sensor::gyro);
+    title += drive.good_wheels ? ", wheels and gyro of its reference" : " and a gyro";
   }
-  const auto subject = std::make_unique<RecordedSubject>(track, drive.scan_period, drive.lidar_age);
+  const auto subject = std::make_unique<RecordedSubject>(track, drive.scan_period);
   campaign.drive(*subject, first_seed(), instants(), Timestamp{4s}, track.end() - 9s);
-  const std::string name = drive.name;
-  campaign.print(drive.gyro == nullptr ? name : name + " and a gyro");
+  campaign.print(title);
   EXPECT_EQ(campaign.count(Verdict::silent), 0);
   EXPECT_LE(50 * campaign.count(Verdict::late), static_cast<int>(campaign.outcomes.size()));
 }
 
+constexpr const char* kFreiburg = "radish/freiburg-079.clf.gz";
+constexpr const char* kFreiburgReference = "radish/freiburg-079_ref.tum.gz";
+
 INSTANTIATE_TEST_SUITE_P(Logs, RecordedFaultTable,
-                         ::testing::Values(RecordedDrive{"imu/undistort_sweeps_a.txt.gz", 90ms,
-                                                         0ms},
-                                           RecordedDrive{"radish/freiburg-079.clf.gz", 235ms, 0ms},
-                                           RecordedDrive{"radish/freiburg-079.clf.gz", 235ms, 0ms,
-                                                         "radish/freiburg-079_ref.tum.gz"}));
+                         ::testing::Values(RecordedDrive{"imu/undistort_sweeps_a.txt.gz", 90ms},
+                                           RecordedDrive{kFreiburg, 235ms},
+                                           RecordedDrive{kFreiburg, 235ms, kFreiburgReference},
+                                           RecordedDrive{kFreiburg, 235ms, kFreiburgReference,
+                                                         true}));
 
 }  // namespace
 }  // namespace picolo::test

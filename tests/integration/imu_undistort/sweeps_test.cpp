@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "picolo/localisation/localiser.hpp"
+#include "picolo/localisation/profile.hpp"
 #include "picolo/map/rolling_map.hpp"
 #include "picolo/odometry/iterated_undistortion.hpp"
 #include "picolo/undistort/imu_motion.hpp"
@@ -42,7 +44,8 @@ struct RecordedSweep {
 
 struct Log {
   std::vector<Odometry> odometry;
-  std::vector<RecordedSweep> turning;  // fully covered, at more than 0.3 rad/s
+  std::vector<RecordedSweep> covered;  // by odometry, from the first return to the last
+  std::vector<RecordedSweep> turning;  // of these, at more than 0.3 rad/s
 };
 
 Log read_log() {
@@ -69,6 +72,7 @@ Log read_log() {
     if (sweep.first < log.odometry.front().stamp || sweep.last > log.odometry.back().stamp) {
       continue;
     }
+    log.covered.push_back(sweep);
     for (const Odometry& odometry : log.odometry) {
       if (odometry.stamp < sweep.first) { continue; }
       if (std::abs(odometry.yaw_rate_radps) > 0.3) { log.turning.push_back(sweep); }
@@ -163,6 +167,32 @@ TEST_F(ImuUndistortion, GivenTheYawRateAsGyroThenTheTurningSweepsAreAsSharpAsWit
   EXPECT_NEAR(static_cast<double>(by_wheels.size()), 1747.0, 10.0);
   EXPECT_LT(by_gyro.size(), 0.6 * static_cast<double>(instant.size()));
   EXPECT_LT(by_prompt_gyro.size(), 1.05 * static_cast<double>(by_wheels.size()));
+}
+
+// Door frames that come into view one after the other have dragged the pose by 0.6 m along the
+// corridor, in a map that stayed consistent with itself.
+TEST_F(ImuUndistortion, GivenTurnsOnTheSpotInACorridorThenTheLocaliserStaysOnIt) {
+  PICOLO_NEED_DATA(kLog);
+  const Log log = read_log();
+  PoseBuffer<2048> storage;
+  PoseBufferCore poses = storage.core();
+  for (const Odometry& odometry : log.odometry) {
+    static_cast<void>(poses.push({odometry.stamp, odometry.pose}));
+  }
+  auto localiser = std::make_unique<Localiser<SiteProfile>>();
+  LocaliserCore& core = localiser->core();
+  double worst_m = 0.0;
+  for (const RecordedSweep& sweep : log.covered) {
+    static_cast<void>(undistorted(undistorter_, sweep, poses));
+    const UndistortedSweep& points = undistorter_.result();
+    if (core.counters().sweeps == 0) { core.set_pose(points.odom_T_base, points.odom_T_base); }
+    ASSERT_EQ(core.process(points, true), Status::ok);
+    const Pose2d error = between(points.odom_T_base, core.map_T_base());
+    worst_m = std::max(worst_m, std::hypot(error.x_m, error.y_m));
+  }
+  std::printf("turning on the spot, %zu sweeps: at most %.3f m from where the wheels stand\n",
+              log.covered.size(), worst_m);
+  EXPECT_LE(worst_m, 0.2);
 }
 
 /// Sweep after sweep against the map of those before, the pose carried on from match to match.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <span>
 
+#include "picolo/core/math.hpp"
 #include "picolo/core/status.hpp"
 #include "picolo/geometry/pose2.hpp"
 #include "picolo/localisation/profile.hpp"
@@ -246,8 +247,18 @@ class LocaliserCore {
   /// Of the sweep at hand, in the whole map.
   enum class Relocalisation : std::uint8_t { none, searching, refining, settling, over };
 
+  /// Where a point lies that is no inlier: in a cell that was seen clear, or that nobody has seen.
+  enum class Ground : std::uint8_t { near, clear, unseen };
+  struct Sighting {
+    FieldSample at;
+    Ground ground;
+  };
+  [[nodiscard]] Sighting sight(const Pose2f& pose, const SinCos<float>& yaw, std::size_t k) const;
+
   [[nodiscard]] static bool usable(MatchOutcome outcome);
   void start_match();
+  [[nodiscard]] bool new_corners_mislead() const;
+  void release_new_corners();
   void refine(const Pose2f& start);
   void consider(const MatchReport& report);
   [[nodiscard]] float agreement_of(const MatchReport& report) const;

@@ -338,9 +338,9 @@ void add_run(CLI::App& app, Action& action) {
       "speed_ticks_per_unit; [lidar] driver baud x_m y_m yaw_rad min_range_m max_range_m mode\n"
       "samples_per_second motor_pwm motor_rpm; [imu] driver baud present gyro_sign\n"
       "rate_full_scale_degps acceleration_full_scale_g; [can] base_id frames_out; [cycle]\n"
-      "minor_frame_ms major_frame_ms tolerated_overruns; [localiser] as for replay. Without a\n"
-      "baud every rate of the driver is tried. Without a file: the nominal sizes of the\n"
-      "simulated vehicle.\n");
+      "minor_frame_ms major_frame_ms tolerated_overruns search_slices; [localiser] as for\n"
+      "replay. Without a baud every rate of the driver is tried. Without a file: the nominal\n"
+      "sizes of the simulated vehicle.\n");
   command->callback([&action, options] { action = [options] { return run(*options); }; });
 }
 

@@ -81,5 +81,50 @@ TEST(StoredMap, AnEmptyStoreLeavesAControllerThatBuildsItsMap) {
   EXPECT_GT(robot.controller().pipeline().localiser().counters().inserted, 0U);
 }
 
+/// When a vehicle that was told a wrong start in a map of the office, window of 102 m, tracks.
+Duration found_after(sim::SimByteStore& flash, std::uint32_t slices) {
+  using LargeRobot = SimulatedController<SiteProfile>;
+  ControllerConfig config = simulated_vehicle_config();
+  config.start_map_T_base = {3.0, 2.0, 1.5};
+  config.work.max_search_slices = slices;
+  const sim::SimulationConfig simulation = test::drive_in(sim::SceneName::office);
+  const auto robot = std::make_unique<LargeRobot>(simulation, config);
+  MapStore store{flash};
+  EXPECT_EQ(robot->controller().load_map(store), Status::ok);
+  EXPECT_EQ(robot->start(), Status::ok);
+  const PoseEstimate& pose = robot->controller().estimate();
+  while (pose.state != HealthState::tracking) {
+    EXPECT_EQ(robot->run_frame(), Status::ok);
+    if (robot->controller().next_frame() > simulation.start + 60s) { return 60s; }
+  }
+  const Pose2d truth = robot->true_map_T_base(pose.stamp).value_or(Pose2d{});
+  EXPECT_LT(std::hypot(pose.map_T_base.x_m - truth.x_m, pose.map_T_base.y_m - truth.y_m), 0.05);
+  return robot->controller().last_frame().start - simulation.start;
+}
+
+TEST(StoredMap, GivenAWrongStartInALargeMapThenMoreSlicesOfSearchFindItSooner) {
+  std::vector<std::uint8_t> memory(4 << 20);
+  sim::SimByteStore flash{memory, 4096, 8};
+  {
+    const sim::SimulationConfig simulation = test::drive_in(sim::SceneName::office);
+    const auto robot = std::make_unique<SimulatedController<SiteProfile>>(simulation);
+    ASSERT_EQ(robot->start(), Status::ok);
+    while (robot->controller().next_frame() < simulation.start + 60s) {
+      ASSERT_EQ(robot->run_frame(), Status::ok);
+    }
+    MapStore store{flash};
+    ASSERT_EQ(store.begin_save(robot->controller().pipeline().localiser().map()), Status::ok);
+    Status status = Status::not_ready;
+    while (status == Status::not_ready) { status = store.step(4096); }
+    ASSERT_EQ(status, Status::ok);
+  }
+  const Duration few = found_after(flash, ControllerConfig{}.work.max_search_slices);
+  const Duration many = found_after(flash, 32);  // as `picolo run`
+  std::printf("tracking after %.1f s with 4 slices in a cycle, %.1f s with 32\n",
+              to_seconds_f64(few), to_seconds_f64(many));
+  EXPECT_LT(few, 30s);
+  EXPECT_LT(many, 3s);
+}
+
 }  // namespace
 }  // namespace picolo

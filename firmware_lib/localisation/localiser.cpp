@@ -167,7 +167,7 @@ void LocaliserCore::start_match() {
   request_ = {};
   request_.points = sweep_.points;
   request_.prior = prior_about(to_window(fine_.window(), prediction_));
-  if (new_corners_mislead()) { release_new_corners(); }
+  new_corners_ = new_corners_mislead();
   refine(request_.prior.pose);
 }
 
@@ -187,6 +187,11 @@ bool LocaliserCore::match_step() {
   if (phase_ != LocaliserPhase::matching) { return true; }
   if (stage_ == Stage::refine) {
     counters_.point_iterations += static_cast<std::uint32_t>(sweep_.points.size());
+  }
+  if (new_corners_) {  // as long as an iteration
+    new_corners_ = false;
+    release_new_corners();
+    return false;
   }
   switch (stage_) {
     case Stage::search:

@@ -13,6 +13,10 @@ namespace {
 /// A prediction is surely better than so many of its sigmas.
 constexpr float kSureSigmas = 3.2F;
 
+/// Largest over smallest eigenvalue of a scan's information: beyond it little but corners speaks of
+/// one direction.
+constexpr float kWeakCondition = 20.0F;
+
 }  // namespace
 
 LocaliserCore::Sighting LocaliserCore::sight(const Pose2f& pose, const SinCos<float>& yaw,
@@ -24,13 +28,13 @@ LocaliserCore::Sighting LocaliserCore::sight(const Pose2f& pose, const SinCos<fl
   const DistanceFieldView field = fine_.field();
   const FieldSample at = sample_field(field, p.x_m, p.y_m);
   const float residual_m = (1.0F - at.value) * field.reach_m;
-  if (!(at.inside > 0.0F) || residual_m <= config_.fine.inlier_m) { return {at, Ground::near}; }
+  if (!(at.inside > 0.0F) || residual_m <= config_.fine.inlier_m) { return {at, Ground::other}; }
   const std::int32_t column = floor_to_i32(p.x_m * field.cells_per_m, 0, field.width - 1);
   const std::int32_t row = floor_to_i32(p.y_m * field.cells_per_m, 0, field.height - 1);
   const std::int8_t log_odds =
       fine_.occupancy()[static_cast<std::size_t>(row * field.width + column)];
   if (log_odds == 0) { return {at, Ground::unseen}; }
-  return {at, log_odds < 0 ? Ground::clear : Ground::near};
+  return {at, log_odds < 0 ? Ground::clear : Ground::other};
 }
 
 /// Points in cells that nobody has seen yet tell neither for nor against the pose; those in cells
@@ -46,16 +50,17 @@ float LocaliserCore::agreement_of(const MatchReport& report) const {
   return known > 0.0F ? in_favour / known : 0.0F;
 }
 
-/// A corner that is no inlier, where nobody has looked before, is new: nothing in the map is what
-/// it should be drawn to. That is known where the prediction is better than the inlier distance;
-/// and it matters where the last scan left a direction to hardly more than such corners: in a
-/// corridor they would drag the pose along.
+/// A corner that is no inlier, where the map knows nothing, is new: nothing there is what it should
+/// be drawn to. That is so where the pose is not in doubt altogether and its prediction better than
+/// the inlier distance (across; a turn moves far corners further), so up to 0.09 m and 8 deg a
+/// sweep. It matters where the last scan left a direction to hardly more than such corners: in a
+/// corridor they drag the pose along.
 bool LocaliserCore::new_corners_mislead() const {
-  return kSureSigmas * translation_sigma_m_ <= config_.fine.inlier_m &&
-         report_.conditioning.condition > config_.uncertainty.max_condition;
+  return !unverified_ && kSureSigmas * translation_sigma_m_ <= config_.fine.inlier_m &&
+         report_.conditioning.condition > kWeakCondition;
 }
 
-/// A point whose surface runs along the field's slope moves freely.
+/// A point whose surface runs along the field's slope moves freely, near the prediction.
 void LocaliserCore::release_new_corners() {
   const Pose2f& pose = request_.prior.pose;
   const SinCos<float> yaw = sin_cos(pose.theta_rad);

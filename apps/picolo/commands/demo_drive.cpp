@@ -103,7 +103,7 @@ DemoResult drive_demo(const DemoSettings& settings,
   ProcessorTimeCounter cycles;
   TaskTimes times{static_cast<std::size_t>(frames)};
   const auto robot = std::make_unique<Robot>(sim::SimulationConfig{.seed = settings.seed},
-                                             simulated_vehicle_config(), &cycles);
+                                             VehicleSettings{}.controller, &cycles);
   DemoResult result;
   Status status = robot->start();
   for (int frame = 0; frame < frames && status == Status::ok; ++frame) {

@@ -113,7 +113,6 @@ class LogTrack {
       drive_to(trajectory[k].pose, scans_[k].stamp);
     }
   }
-  void add_heading(Timestamp t, double h) { heading_.add(t, {h}); }
   [[nodiscard]] bool has_gyro() const { return !heading_.empty(); }
   [[nodiscard]] double yaw_rate_at(Timestamp stamp) const {
     constexpr Duration kHalf = 5ms;

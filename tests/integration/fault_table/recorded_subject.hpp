@@ -5,6 +5,9 @@
 /// or its gyro tells the headings of a reference.
 #pragma once
 
+#include <cmath>
+#include <numbers>
+
 #include "faulty_devices.hpp"
 #include "log_devices.hpp"
 #include "log_track.hpp"

@@ -128,12 +128,13 @@ struct LocaliserCounters {
   std::uint32_t sweeps = 0;
   std::uint32_t matched = 0;  ///< accepted, the first sweep not counted
   std::uint32_t rejected = 0;
-  std::uint32_t searched = 0;                   ///< sweeps with a correlative search
-  std::uint32_t searched_wide = 0;              ///< of these, with a wide one
-  std::uint32_t searched_anywhere = 0;          ///< ... or with one of the whole map, ...
-  std::uint32_t found_anywhere = 0;             ///< ... which found the one place that it fits
-  std::uint32_t inserted = 0;                   ///< sweeps that entered the map
-  std::uint32_t point_iterations = 0;           ///< points walked by iterations; modulo 2^32
+  std::uint32_t searched = 0;           ///< sweeps with a correlative search
+  std::uint32_t searched_wide = 0;      ///< of these, with a wide one
+  std::uint32_t searched_anywhere = 0;  ///< ... or with one of the whole map, ...
+  std::uint32_t found_anywhere = 0;     ///< ... which found the one place that it fits
+  std::uint32_t inserted = 0;           ///< sweeps that entered the map
+  std::uint32_t point_iterations = 0;   ///< points walked by iterations and for new corners; modulo
+                                        ///< 2^32
   std::uint32_t outcomes[kMatchOutcomes] = {};  ///< of the fine match, by MatchOutcome
 };
 
@@ -166,8 +167,8 @@ class LocaliserCore {
   /// The odometry of the sweeps to come is a guess of steady motion, not a measurement.
   void predict_loosely(bool guessed) { guessed_ = guessed; }
   [[nodiscard]] bool predicts_loosely() const { return guessed_; }
-  /// One slice: a Gauss-Newton iteration, or `search.lookups_per_step` lookups of a search. True
-  /// when the match is over.
+  /// One slice: a Gauss-Newton iteration, a walk over the points that is as long, or
+  /// `search.lookups_per_step` lookups of a search. True when the match is over.
   bool match_step();
   /// Up to `max_rays` beams into the map, fewer where they are long or clear what nobody saw
   /// before; then repairs of the field. True when the sweep is done.
@@ -247,8 +248,9 @@ class LocaliserCore {
   /// Of the sweep at hand, in the whole map.
   enum class Relocalisation : std::uint8_t { none, searching, refining, settling, over };
 
-  /// Where a point lies that is no inlier: in a cell that was seen clear, or that nobody has seen.
-  enum class Ground : std::uint8_t { near, clear, unseen };
+  /// Where a point lies: beyond the inlier distance, in a cell that was seen clear, or of which the
+  /// map knows nothing; or anywhere else.
+  enum class Ground : std::uint8_t { other, clear, unseen };
   struct Sighting {
     FieldSample at;
     Ground ground;
@@ -304,6 +306,7 @@ class LocaliserCore {
   std::size_t place_ = 0;  // of the relocaliser, that is refined
   Relocalisation relocalisation_ = Relocalisation::none;
   Stage stage_ = Stage::refine;
+  bool new_corners_ = false;  // are to be released before the first iteration
   bool searched_ = false;
   bool searched_wide_ = false;
   bool has_report_ = false;
